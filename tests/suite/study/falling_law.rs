@@ -51,7 +51,7 @@ fn a_falling_law_alone_is_never_told_to_couple() {
 }
 
 /// On the way back a structure leans the other way: friction does not couple its modes, and what a falling law alone sustains has a phase near 180°. Without
-/// a coalescence to hold it against, by slow forces, that is never told mode coupling; in most records it is told what it is.
+/// a coalescence to hold it against, by slow forces, that is never told mode coupling; in a part of the records it is told what it is.
 #[test]
 fn a_falling_law_on_the_way_back_is_never_told_to_couple() {
     let mut random = Random::new(180);
@@ -76,5 +76,6 @@ fn a_falling_law_on_the_way_back_is_never_told_to_couple() {
         assert!(!says(Kind::ModeCoupling, Mechanism::ModeCoupling), "{records}: {}", describe(&found));
         told += usize::from(says(Kind::NegativeSlope, Mechanism::NegativeSlope));
     }
-    assert!(told >= 6, "{told} of {records}");
+    // Seven, where this was written.
+    assert!(told >= 5, "{told} of {records}");
 }
