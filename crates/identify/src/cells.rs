@@ -59,11 +59,7 @@ impl Cell {
             loud: f64::from(u8::from(loud)),
             sums: if loud { window.sums } else { Sums::default() },
             power: window.amplitude * window.amplitude,
-            pitch: {
-                let mut pitch = Pitch::default();
-                pitch.take(window.frequency, window.amplitude * window.amplitude);
-                pitch
-            },
+            pitch: Pitch::of(window.frequency, window.amplitude * window.amplitude),
             unlike: f64::from(u8::from(!loud && window.unlike)),
             tangential: friction.map_or(0.0, |(mu, normal)| mu * normal),
             normal: window.normal_force.unwrap_or_default(),

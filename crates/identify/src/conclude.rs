@@ -93,7 +93,7 @@ fn without_growth(overview: &Overview, looked: &Looked) -> Verdict {
             Some(frequency) => Verdict::undecided(format!(
                 "{nothing}; the strongest one of the record, at {frequency:.1} Hz, was not looked at: widen --band"
             )),
-            None if looked.unlike || 2 * overview.unlike > overview.windows => Verdict::undecided(DEAD),
+            None if looked.unlike => Verdict::undecided(DEAD),
             None if samples < LEAST_QUIET => {
                 Verdict::undecided(format!("{nothing}, but in {samples} samples one may hide; record longer"))
             }

@@ -17,8 +17,6 @@ pub(super) struct Overview {
     pub(super) time: [f64; 2],
     /// Windows in which an oscillation stands out.
     pub(super) loud: usize,
-    /// Those in which the normal acceleration is much the larger one.
-    pub(super) unlike: usize,
     /// Power, start (s) and frequency (Hz) of the loudest of them.
     pub(super) loudest: [f64; 3],
     /// Whether all of them are linear.
@@ -39,7 +37,6 @@ impl Overview {
             windows: 0,
             time: [0.0; 2],
             loud: 0,
-            unlike: 0,
             loudest: [0.0; 3],
             linear: true,
             last: 0.0,
@@ -57,7 +54,6 @@ impl Overview {
             self.time[0] = window.time[0];
         }
         self.windows += 1;
-        self.unlike += usize::from(window.unlike);
         self.time[1] = window.time[1];
         let power = (window.sums.xx - window.sums.noise[0]).max(0.0);
         self.last = power.sqrt();

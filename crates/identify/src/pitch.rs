@@ -8,8 +8,15 @@ const SAME: f64 = 0.2;
 pub(super) struct Pitch([[f64; 2]; 2]);
 
 impl Pitch {
+    /// That of one window: its frequency (Hz) and power.
+    pub(super) fn of(frequency: f64, power: f64) -> Pitch {
+        let mut pitch = Pitch::default();
+        pitch.take(frequency, power);
+        pitch
+    }
+
     /// Takes a frequency (Hz) with its power.
-    pub(super) fn take(&mut self, frequency: f64, power: f64) {
+    fn take(&mut self, frequency: f64, power: f64) {
         if power.is_nan() || power <= 0.0 {
             return;
         }

@@ -104,23 +104,19 @@ impl Branch {
         let mut across = DVector::zeros(place.len());
         across[map.count()] = 1.0;
         let start = fixed(&map, &place, &across)?;
-        let (backwards, mut closed) = follow(&map, &start, -1.0);
+        let (backwards, closed) = follow(&map, &start, -1.0);
+        let forwards = (!closed).then(|| follow(&map, &start, 1.0));
         let mut branch = Branch::default();
-        let mut forwards = None;
-        if !closed {
-            let (mut course, round) = follow(&map, &start, 1.0);
-            if !round {
-                // The start is told once.
-                course.points.remove(0);
-            }
-            (forwards, closed) = (Some(course), round);
-        }
         // The way round has all points.
-        if forwards.is_none() || !closed {
-            branch.tell(&map, &backwards);
-            branch.points.reverse();
+        if let Some((round, true)) = &forwards {
+            branch.tell(&map, round);
+            return Some(branch);
         }
-        if let Some(forwards) = forwards {
+        branch.tell(&map, &backwards);
+        branch.points.reverse();
+        if let Some((mut forwards, _)) = forwards {
+            // The start is told once.
+            forwards.points.remove(0);
             branch.tell(&map, &forwards);
         }
         Some(branch)

@@ -59,11 +59,12 @@ pub fn mortar(
     // D and G by node numbers.
     let mut d: Entries = BTreeMap::new();
     let mut g: Entries = BTreeMap::new();
+    let rule = triangle_rule();
     for slave in &slaves {
         for master in masters.iter().filter(|m| slave.near(m)) {
             let overlap = clip(&slave.corners, &master.corners);
             for i in 1..overlap.len().saturating_sub(1) {
-                integrate(slave, master, [overlap[0], overlap[i], overlap[i + 1]], &mut d, &mut g);
+                integrate([slave, master], [overlap[0], overlap[i], overlap[i + 1]], &rule, &mut d, &mut g);
             }
         }
     }
@@ -241,12 +242,18 @@ fn clip(polygon: &[Plane], window: &[Plane]) -> Vec<Plane> {
 }
 
 /// Adds the integrals over one triangle of an overlap.
-fn integrate(slave: &Flat, master: &Flat, [a, b, c]: [Plane; 3], d: &mut Entries, g: &mut Entries) {
+fn integrate(
+    [slave, master]: [&Flat; 2],
+    [a, b, c]: [Plane; 3],
+    rule: &[(Plane, f64)],
+    d: &mut Entries,
+    g: &mut Entries,
+) {
     let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if !(twice > 0.0) {
         return;
     }
-    for ([u, v], weight) in triangle_rule() {
+    for ([u, v], weight) in rule {
         let place = [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]));
         let (own, other) = (slave.shape_at(place), master.shape_at(place));
         for (node, n) in slave.nodes.iter().zip(&own) {

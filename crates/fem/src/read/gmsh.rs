@@ -257,11 +257,11 @@ fn element(
             physical.iter().filter_map(|tag| found.names.get(&(3, *tag)).cloned()).collect();
         // No corners: a set of nodes only.
         found.marked.push((nodes.clone(), 0, named));
-        if let Some(known) = found.known.get(&sorted(&nodes)) {
-            found.groups[*known].extend(physical);
+        let place = *found.known.entry(sorted(&nodes)).or_insert(found.groups.len());
+        if let Some(groups) = found.groups.get_mut(place) {
+            groups.extend(physical);
             return Ok(());
         }
-        found.known.insert(sorted(&nodes), found.groups.len());
         found.groups.push(physical.to_vec());
         let number = lines.word(words, 0, "number")?;
         found.raw.elements.push(RawElement { number, kind, nodes, material: 0, line: lines.line });

@@ -85,48 +85,31 @@ fn a_pair_beside_another_is_followed_to_its_own_place() {
     assert!(found.iter().any(|[mu, _]| (mu - 0.649_36).abs() < 1e-5), "{found:?}");
 }
 
+/// A block from the origin on two rigid planes, along each of which it slides in a direction; and what else there is.
+fn guided(size: &str, cells: &str, material: &str, [first, second]: [(&str, &str); 2], rest: &str) -> String {
+    let slides = |(side, direction): (&str, &str)| {
+        format!("[[sliding]]\nslaves = \"p.{side}\"\nmasters = \"rigid\"\ndirection = {direction}\n")
+    };
+    format!(
+        "[parts.p]\nkind = \"block\"\nelement = \"hex20\"\norigin = [0.0, 0.0, 0.0]\nsize = {size}\ncells = {cells}\nmaterial = \"a\"\n\
+         [materials.a]\n{material}\n{}{}{rest}",
+        slides(first),
+        slides(second)
+    )
+}
+
 /// A block in a guide of two rigid planes, pressed on both: what one plane carries does not become part of the other along their edge. Two equal
 /// pairs meet at one place, as its two transverse directions are alike.
 #[test]
 fn surfaces_with_an_edge_in_common_are_two() {
     let guide = |friction: &str| {
-        format!(
-            r#"
-            [parts.p]
-            kind = "block"
-            element = "hex20"
-            origin = [0.0, 0.0, 0.0]
-            size = [0.02, 0.01, 0.01]
-            cells = [2, 1, 1]
-            material = "a"
-            [materials.a]
-            young = 26e9
-            poisson = 0.0
-            density = 1800.0
-            [[supports]]
-            set = "p.x1"
-            axes = "x"
-            [[loads]]
-            set = "p.z1"
-            pressure = 1e6
-            [[loads]]
-            set = "p.y1"
-            pressure = 1e6
-            [[sliding]]
-            slaves = "p.z0"
-            masters = "rigid"
-            direction = [1.0, 0.0, 0.0]
-            [[sliding]]
-            slaves = "p.y0"
-            masters = "rigid"
-            direction = [1.0, 0.0, 0.0]
-            [friction]
-            mu = {{ values = [0.0, 0.3, 0.6, 1.0] }}
-            {friction}
-            [modes]
-            count = 10
-            "#
-        )
+        let along = "[1.0, 0.0, 0.0]";
+        let rest = format!(
+            "[[supports]]\nset = \"p.x1\"\naxes = \"x\"\n[[loads]]\nset = \"p.z1\"\npressure = 1e6\n[[loads]]\nset = \"p.y1\"\npressure = 1e6\n\
+             [friction]\nmu = {{ values = [0.0, 0.3, 0.6, 1.0] }}\n{friction}\n[modes]\ncount = 10\n"
+        );
+        let material = "young = 26e9\npoisson = 0.0\ndensity = 1800.0";
+        guided("[0.02, 0.01, 0.01]", "[2, 1, 1]", material, [("z0", along), ("y0", along)], &rest)
     };
     let pressed = outcome(&guide(""));
     assert_eq!(pressed.pressed.as_ref().map(|pressed| pressed.open), Some(0));
@@ -172,41 +155,16 @@ fn surfaces_that_face_the_same_way_are_refused() {
 /// values of μ, also where its growth is next to nothing at some of them; and the other way round it jams at μ = 1, as a rigid body does.
 #[test]
 fn a_weak_pair_and_a_jam_are_where_they_are() {
-    let cube = |values: &str, along: f64| {
-        format!(
-            r#"
-            [parts.a]
-            kind = "block"
-            element = "hex20"
-            origin = [0.0, 0.0, 0.0]
-            size = [0.02, 0.02, 0.02]
-            cells = [2, 2, 2]
-            material = "m"
-            [materials.m]
-            young = 2.1e11
-            poisson = 0.3
-            density = 7850.0
-            [[supports]]
-            set = "a.y0"
-            axes = "y"
-            [[sliding]]
-            slaves = "a.z0"
-            masters = "rigid"
-            direction = [{along:.1}, 0.0, 0.0]
-            [[sliding]]
-            slaves = "a.x0"
-            masters = "rigid"
-            direction = [0.0, 0.0, -1.0]
-            [friction]
-            mu = {{ {values} }}
-            contact_stiffness = 1e11
-            [modes]
-            count = 8
-            "#
-        )
+    let cube = |values: &str, along: &str| {
+        let rest = format!(
+            "[[supports]]\nset = \"p.y0\"\naxes = \"y\"\n[friction]\nmu = {{ {values} }}\ncontact_stiffness = 1e11\n[modes]\ncount = 8\n"
+        );
+        let material = "young = 2.1e11\npoisson = 0.3\ndensity = 7850.0";
+        let slides = [("z0", along), ("x0", "[0.0, 0.0, -1.0]")];
+        guided("[0.02, 0.02, 0.02]", "[2, 2, 2]", material, slides, &rest)
     };
     let weak = |values: &str| {
-        let found = met(&outcome(&cube(values, 1.0)));
+        let found = met(&outcome(&cube(values, "[1.0, 0.0, 0.0]")));
         let pair = found.iter().find(|[_, frequency]| (frequency / 42_380.5 - 1.0).abs() < 1e-4);
         pair.expect("a weak pair")[0]
     };
@@ -214,6 +172,6 @@ fn a_weak_pair_and_a_jam_are_where_they_are() {
     // Growth squared over μ, by the eigenvalues at 0.0007 and 0.001, is a straight line to 0 there.
     assert!((coarse - 6.6e-4).abs() < 1e-5, "{coarse}");
     assert!((weak("values = [0.0, 0.0006, 0.0007, 0.001]") - coarse).abs() < 1e-8);
-    let jam = outcome(&cube("from = 0.0, to = 1.6, points = 9", -1.0)).transitions;
+    let jam = outcome(&cube("from = 0.0, to = 1.6, points = 9", "[-1.0, 0.0, 0.0]")).transitions;
     assert!(jam.iter().any(|t| t.event == Event::Divergence && (t.mu - 1.0).abs() < 1e-6), "{jam:?}");
 }
