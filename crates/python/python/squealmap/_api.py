@@ -254,7 +254,7 @@ def fit(
     """
     if isinstance(temperatures, (str, bytes)) or not isinstance(temperatures, Iterable):
         raise TypeError(f"temperatures is a list of numbers, not {type(temperatures).__name__}")
-    files = list(points) if isinstance(points, (list, tuple)) else [points]
+    files: list[Any] = list(points) if isinstance(points, (list, tuple)) else [points]
     if not files:
         raise TypeError("points is a path or a list of paths, not an empty list")
     choices = {
