@@ -61,7 +61,7 @@ pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Resul
     const ZERO: f64 = 1e-9;
     let all = &model.contact;
     let numbering = Numbering::new(&model.mesh, &model.supports, &[])?;
-    let whole = Surface::new(&model.mesh, &numbering, faces, all);
+    let whole = Surface::new(model, &numbering, faces, all);
     // Where a stiffness holds the points, each has its own gap.
     let middles = if model.penalty.is_some() { Vec::new() } else { whole.middles() };
     let mut pressed: Vec<bool> = vec![true; all.len()];
@@ -90,7 +90,7 @@ pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Resul
             // Points on one line let a body turn: the matrix is singular but for rounding. All of them do not.
             return Err(if rounds > 1 { tips(rounds, mu) } else { moves(farthest, now.mesh.extent()) });
         }
-        let surface = Surface::new(&now.mesh, &numbering, faces, &now.contact);
+        let surface = Surface::new(&now, &numbering, faces, &now.contact);
         // How much each point is on the wrong side: pulled, or overlapping.
         let pressing = surface.pressing(&forces);
         let gaps = gaps(all, &middles, &displacement);

@@ -3,7 +3,7 @@
 use crate::episode::Episode;
 use crate::instants::Instant;
 use crate::level::Reading;
-use crate::population::{Seen, Source, bin, chances};
+use crate::population::{Level as Height, Seen, Source, bin, chances};
 use crate::segment::{Segment, State};
 use crate::testimony::{CAUSES, Chances, Mechanism, Testimony, Witness};
 use crate::verdict::{CONFIDENT, DEAD, Kind, Verdict};
@@ -266,8 +266,12 @@ fn together(
     // The power at growth may be too unsure to speak, and yet say that a mechanism rather would not do.
     let [slope, coupling] = told.and_then(|episode| episode.verdict.each).unwrap_or([1.0; 2]);
     let by_growth = |share: f64| if share < RATHER { CONFIDENT - 0.01 } else { 1.0 };
+    // Modes as close as their damping is wide give a slope alone any phase: where friction lies far below the coalescence, that alone does not
+    // exclude it.
+    let by_phase =
+        if level == Some(Height::Far) && structure.damped.is_none() { CONFIDENT - 0.01 } else { 1.0 };
     let most = |mechanism| match mechanism {
-        Mechanism::ModeCoupling => by_level(true).min(by_growth(coupling)),
+        Mechanism::ModeCoupling => by_level(true).min(by_growth(coupling)).min(by_phase),
         Mechanism::NegativeSlope => by_slope(true).min(by_growth(slope)),
     };
     let couples = matches!(kind, Kind::ModeCoupling | Kind::Both);

@@ -1,7 +1,8 @@
 //! The knee of a friction law among the levels that are read within an oscillation, each of which is smeared.
 //!
-//! Levels are read over [`SIDE`] of the velocity on either side. Where friction falls below a velocity `k` by `c` per m/s more than above it,
-//! the mean over a half-width `h` is `a + b v + c r(k − v)` with
+//! Levels are read over [`SIDE`] of the velocity on either side, and what happens between samples is smeared over more
+//! ([`Within::half_width`](crate::within::Within::half_width)). Where friction falls below a velocity `k` by `c` per m/s more than above it, the mean
+//! over a half-width `h` is `a + b v + c r(k − v)` with
 //!
 //! ```text
 //! r(x) = 0 for x ≤ −h,   (x + h)²/4h between,   x for x ≥ h
@@ -25,15 +26,18 @@ pub(super) struct Knee {
     pub(super) below: f64,
     /// By how much more steeply friction falls, s/m.
     fall: f64,
+    /// Half of the width over which levels are read, over the velocity.
+    width: f64,
 }
 
 impl Knee {
-    /// The knee that leaves the smallest sum of squared residuals of points (speed, m/s, and friction, in order of speed), and that sum over
-    /// the square of `scale`. `None` where there are not `least` points or more on either side, where friction does not fall more steeply below, or
+    /// The knee that leaves the smallest sum of squared residuals of points (speed, m/s, and friction, in order of speed), each read over `width` of
+    /// its velocity on either side, and that sum over the square of `scale`. `None` where there are not `least` points or more on either side, where friction does not fall more steeply below, or
     /// where the knee is known no better than a level.
-    pub(super) fn fitted(points: &[[f64; 2]], scale: f64, least: usize) -> Option<(Knee, f64)> {
+    pub(super) fn fitted(points: &[[f64; 2]], width: f64, scale: f64, least: usize) -> Option<(Knee, f64)> {
         let last = points.len().checked_sub(least)?;
-        let found = (least..last).filter_map(|k| solved(points, 0.5 * (points[k - 1][0] + points[k][0])));
+        let found =
+            (least..last).filter_map(|k| solved(points, width, 0.5 * (points[k - 1][0] + points[k][0])));
         let found: Vec<(Knee, f64)> = found.collect();
         let (best, squares) = *found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
         let likely = found.iter().filter(|(_, other)| *other <= squares + LIKELY * scale * scale);
@@ -47,7 +51,7 @@ impl Knee {
     /// By how much the level read at a velocity (m/s) lies above the law.
     pub(super) fn smear(self, velocity: f64) -> f64 {
         let speed = velocity.abs();
-        self.fall * (ramp(self.at - speed, SIDE * speed) - (self.at - speed).max(0.0))
+        self.fall * (ramp(self.at - speed, self.width * speed) - (self.at - speed).max(0.0))
     }
 }
 
@@ -63,11 +67,11 @@ fn ramp(x: f64, h: f64) -> f64 {
 }
 
 /// Least squares with a knee at a speed (m/s), and the squared residuals.
-fn solved(points: &[[f64; 2]], at: f64) -> Option<(Knee, f64)> {
+fn solved(points: &[[f64; 2]], width: f64, at: f64) -> Option<(Knee, f64)> {
     // Speeds from the knee on: no digits are lost.
     let row = |point: &[f64; 2]| {
         let speed = point[0];
-        Vector3::new(1.0, speed / at - 1.0, ramp(at - speed, SIDE * speed) / at)
+        Vector3::new(1.0, speed / at - 1.0, ramp(at - speed, width * speed) / at)
     };
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for point in points {
@@ -77,7 +81,7 @@ fn solved(points: &[[f64; 2]], at: f64) -> Option<(Knee, f64)> {
     }
     let solution = normal.cholesky()?.solve(&right);
     let squares = points.iter().map(|point| (point[1] - row(point).dot(&solution)).powi(2)).sum();
-    Some((Knee { at, below: at, fall: solution[2] / at }, squares))
+    Some((Knee { at, below: at, fall: solution[2] / at, width }, squares))
 }
 
 #[cfg(test)]
@@ -96,7 +100,7 @@ mod tests {
         };
         let points: Vec<[f64; 2]> =
             (0..200).map(|k| 0.0072 + 0.0002 * f64::from(k)).map(|v| [v, mean(v)]).collect();
-        let (knee, squares) = Knee::fitted(&points, 0.005, 5).expect("there is one");
+        let (knee, squares) = Knee::fitted(&points, SIDE, 0.005, 5).expect("there is one");
         assert!((knee.at - KNEE).abs() < 1e-9 && squares < 1e-3, "{knee:?} {squares}");
         for [v, level] in &points {
             assert!((level - knee.smear(*v) - law(*v)).abs() < 1e-5, "{v}");

@@ -5,7 +5,7 @@ use crate::cross::Measured;
 use crate::knee::Knee;
 use crate::settings::Settings;
 use crate::trend::Trended;
-use crate::within::{SIDE, differ};
+use crate::within::{SIDE, differ, differ_clearly};
 
 /// Velocity of the vibration, over that of sliding, below which the mean of `T/N` is the friction at the mean velocity.
 pub(super) const SMALL: f64 = 0.1;
@@ -128,6 +128,8 @@ pub(super) struct Trend {
     halves: [Measured; 2],
     /// Where friction falls least, and where it falls most.
     ends: [Measured; 2],
+    /// Whether it lies on one side of a knee that is fitted.
+    beside_knee: bool,
     /// The range of the velocity, m/s.
     range: f64,
 }
@@ -154,14 +156,17 @@ impl Trend {
         let halves = [slope(slow)?, slope(fast)?];
         let range = spread * Cell::sum(sorted).speed();
         let speeds = [&sorted[0], &sorted[sorted.len() - 1]].map(Cell::speed);
-        Some(Trend { all, halves, ends: ends(speeds, halves, at_knee), range })
+        Some(Trend { all, halves, ends: ends(speeds, halves, at_knee), beside_knee: knee.is_some(), range })
     }
 
     /// The slope, whether it bends, and its extremes, where friction at this velocity (m/s) is known up to `allowed` and has this `level`.
     fn read(&self, allowed: f64, level: f64, velocity: f64) -> Read {
         let wider = |slope: Measured| Measured { error: slope.error.hypot(allowed / self.range), ..slope };
-        let bent = differ(self.halves.map(wider), level, velocity);
-        (wider(self.all), bent, Some(self.ends.map(wider)))
+        let halves = self.halves.map(wider);
+        // Beside a knee the law is a line, unless it is seen to bend.
+        let straight = self.beside_knee && !differ_clearly(halves);
+        let ends = if straight { [self.all; 2] } else { self.ends };
+        (wider(self.all), differ(halves, level, velocity), Some(ends.map(wider)))
     }
 }
 

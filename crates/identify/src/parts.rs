@@ -37,8 +37,9 @@ impl Part {
 pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
     /// The least scatter of a level that means anything.
     const SCATTER: f64 = 0.005;
-    /// By how much less a knee has to leave of the residuals than lines do.
-    const CLEARLY: f64 = 4.0;
+    /// By how much more than two lines with a cut between them a knee may leave of the residuals: what noise alone makes of the parameter that it
+    /// lacks.
+    const ALIKE: f64 = 10.0;
     /// The part of its cells that may lie beyond a knee.
     const MIXED: f64 = 0.1;
     let found = reads(cells);
@@ -48,12 +49,14 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
     // The law is one of the speed, however often the velocity goes to and fro.
     let begins = [0].into_iter().chain(found.iter().map(|(after, _)| *after));
     let begins: Vec<usize> = begins.collect();
-    let steady = begins.iter().zip(&found).filter(|(from, (after, [velocity, _]))| {
-        let change = cells[*after.min(&(cells.len() - 1))].velocity() - cells[**from].velocity();
+    let steady = |k: usize| {
+        let (after, [velocity, _]) = found[k];
+        let change = cells[after.min(cells.len() - 1)].velocity() - cells[begins[k]].velocity();
         change.abs() < SIDE * velocity.abs()
-    });
-    let mut points: Vec<[f64; 2]> =
-        steady.map(|(_, (_, [velocity, level]))| [velocity.abs(), *level]).collect();
+    };
+    let steady: Vec<usize> = (0..found.len()).filter(|k| steady(*k)).collect();
+    let point = |k: &usize| [found[*k].1[0].abs(), found[*k].1[1]];
+    let mut points: Vec<[f64; 2]> = steady.iter().map(point).collect();
     if points.len() < 2 * LEAST {
         return vec![Part::whole(cells.len())];
     }
@@ -62,7 +65,10 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
     let course = Course::new(&points, SCATTER);
     let scale = course.scale();
     let (cuts, price) = priced(points.len(), &[course], lines);
-    let knee = Knee::fitted(&points, scale, lines).filter(|(_, left)| left + PRICE + CLEARLY < price);
+    let read = steady.iter().flat_map(|k| &cells[begins[*k]..found[*k].0]);
+    let read = Cell::sum(&read.copied().collect::<Vec<_>>());
+    let width = read.within.half_width(read.velocity());
+    let knee = Knee::fitted(&points, width, scale, lines).filter(|(_, left)| left + PRICE < price + ALIKE);
     let knee = knee.map(|(knee, _)| knee);
     let between = cuts.iter().filter(|cut| **cut < points.len());
     let between = between.map(|cut| 0.5 * (points[cut - 1][0] + points[*cut][0])).collect();
@@ -82,14 +88,25 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
         let elsewhere = own.iter().filter(|cell| place(cell.speed()) != most).count();
         let around = Around { mixed: elsewhere as f64 > MIXED * own.len() as f64, ..Around::default() };
         let knees = [*from > 0, *to < found.len()];
-        (Part { cells: [begin(*from), end(*to)], knees, around }, most == 0 && !speeds.is_empty())
+        (Part { cells: [begin(*from), end(*to)], knees, around }, most)
     });
-    let (mut parts, slowest): (Vec<Part>, Vec<bool>) = parts.unzip();
-    let slow = parts.iter().zip(&slowest).filter(|(_, slowest)| **slowest);
-    let slow: Vec<Cell> = slow.flat_map(|(part, _)| &cells[part.cells[0]..part.cells[1]]).copied().collect();
-    if !slow.is_empty() {
-        let line = Trend::new(&by_speed(&slow), true, knee);
-        for (part, _) in parts.iter_mut().zip(slowest).filter(|(_, slowest)| *slowest) {
+    let (mut parts, places): (Vec<Part>, Vec<usize>) = parts.unzip();
+    // What is slower than all of these speeds, and faster than a knee, has one law.
+    let sides = [(0, true)].into_iter().chain(knee.map(|_| (1, false)));
+    for (side, at_knee) in sides.filter(|_| !speeds.is_empty()) {
+        let of_side = || places.iter().map(move |place| *place == side);
+        let own: Vec<[usize; 2]> =
+            parts.iter().zip(of_side()).filter(|(_, own)| *own).map(|(part, _)| part.cells).collect();
+        let own = steady
+            .iter()
+            .map(|k| [begins[*k], found[*k].0])
+            .filter(|[from, to]| own.iter().any(|[first, after]| first <= from && to <= after));
+        let own: Vec<Cell> = own.flat_map(|[from, to]| &cells[from..to]).copied().collect();
+        if own.is_empty() {
+            continue;
+        }
+        let line = Trend::new(&by_speed(&own), at_knee, knee);
+        for (part, _) in parts.iter_mut().zip(of_side()).filter(|(_, own)| *own) {
             part.around = Around { knee, line, ..part.around };
         }
     }

@@ -116,6 +116,8 @@ pub(super) struct Within {
     raw: Sides,
     narrow: Sides,
     wide: Sides,
+    /// Sum of the squared changes of `ẋ` from sample to sample, m²/s², of the samples that are read.
+    steps: f64,
 }
 
 impl Within {
@@ -135,7 +137,10 @@ impl Within {
             let wide = [motion, tangential, normal]
                 .map(|of| 0.0625 * (beside(of, 2) + 4.0 * beside(of, 1) + 6.0 * of[k]));
             let raw = [motion[k], tangential[k], normal[k]];
-            let Within { raw: one, narrow: three, wide: five } = &mut sums;
+            if normal[k] > PRESSED * mean && narrow[0].abs() < SIDE * velocity {
+                sums.steps += (0.5 * (motion[k + 1] - motion[k - 1])).powi(2);
+            }
+            let Within { raw: one, narrow: three, wide: five, .. } = &mut sums;
             for (sides, [motion, tangential, normal]) in [(one, raw), (three, narrow), (five, wide)] {
                 if normal > PRESSED * mean {
                     sides.take([velocity - motion, tangential / normal], velocity, rises);
@@ -149,6 +154,15 @@ impl Within {
         self.raw.add(&other.raw);
         self.narrow.add(&other.narrow);
         self.wide.add(&other.wide);
+        self.steps += other.steps;
+    }
+
+    /// Half of the width over which a level is read at `velocity` (m/s), over that: a mean over [`SIDE`] on either side, of means over three
+    /// samples, whose variance is half of the square of what the velocity changes by between two.
+    pub(super) fn half_width(&self, velocity: f64) -> f64 {
+        let count = self.narrow.all().count.max(1.0);
+        // A mean over a half-width h has the variance h²/3.
+        SIDE.hypot((1.5 * self.steps / count).sqrt() / velocity)
     }
 
     /// Friction coefficient at `velocity` (m/s), and slope `dμ/dv` (s/m); `None` with too few samples.
@@ -198,10 +212,15 @@ impl Within {
 }
 
 /// Whether two slopes `dμ/dv` (s/m) of a law differ clearly, by more than matters to friction of this `level` at this velocity (m/s).
-pub(super) fn differ([one, other]: [Measured; 2], level: f64, velocity: f64) -> bool {
-    /// Standard errors that are clear, and the difference that matters, of `d ln μ/d ln v`.
-    const CLEAR: f64 = 2.0;
+pub(super) fn differ(slopes: [Measured; 2], level: f64, velocity: f64) -> bool {
+    /// The difference that matters, of `d ln μ/d ln v`.
     const MATTERS: f64 = 0.1;
-    let off = (one.value - other.value).abs();
-    off > CLEAR * one.error.hypot(other.error) && off * velocity.abs() > MATTERS * level.abs()
+    let [one, other] = slopes;
+    differ_clearly(slopes) && (one.value - other.value).abs() * velocity.abs() > MATTERS * level.abs()
+}
+
+/// Whether two slopes differ by more than two standard errors.
+pub(super) fn differ_clearly([one, other]: [Measured; 2]) -> bool {
+    const CLEAR: f64 = 2.0;
+    (one.value - other.value).abs() > CLEAR * one.error.hypot(other.error)
 }

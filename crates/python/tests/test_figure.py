@@ -88,3 +88,67 @@ def test_a_part_of_a_trace_draws_itself():
     found = squealmap.trace(FIRST, instance=2, samples_per_period=20)
     part = found.isel(t=slice(0, 100))
     assert "<svg" in part.squealmap.plot().svg
+
+
+def test_the_order_of_dimensions_changes_no_figure():
+    """Rows of a figure go through the axes as the sweep names them; the values keep their places."""
+    import xarray
+
+    dataset = squealmap.linear({**FIRST, "axes": {**FIRST["axes"], "theta": {"values": [-0.05, 0.01]}}})
+    wanted = pictures(dataset.squealmap.plot("growth").svg)
+    stacked = dataset.stack(all=("theta", "belt_velocity", "mu_s")).unstack("all")
+    joined = xarray.concat([dataset.isel(theta=[at]) for at in range(2)], "theta", data_vars="minimal")
+    for other in [dataset.transpose(), dataset.transpose("theta", "mu_s", "belt_velocity"), stacked, joined]:
+        assert pictures(other.squealmap.plot("growth").svg) == wanted
+    falling = dataset.sortby("mu_s", ascending=False)
+    assert pictures(falling.transpose().squealmap.plot("growth").svg) == pictures(falling.squealmap.plot("growth").svg)
+
+
+def test_modes_are_drawn_in_any_order_and_in_parts():
+    sweep = {
+        "friction": {"law": "constant"},
+        "belt": {"belt_velocity": 3.0},
+        "axes": {"mu_d": {"from": 0.0, "to": 0.4, "points": 11}, "theta": {"values": [0.0, 0.01, 0.05]}},
+    }
+    found = squealmap.modes(sweep)
+    wanted = pictures(found.squealmap.plot().svg)
+    for other in [found.transpose("theta", "mode", "mu_d", "crossing"), found.sortby("mu_d", ascending=False)]:
+        assert pictures(other.squealmap.plot().svg) == wanted
+
+    def swept(**axes):
+        return squealmap.modes({**sweep, "axes": {**sweep["axes"], **axes}}).squealmap.plot().svg
+
+    one = pictures(swept(theta={"values": [0.05]}))
+    assert pictures(found.isel(theta=[2]).squealmap.plot().svg) == one
+    assert pictures(found.sel(theta=0.05).squealmap.plot().svg) == one
+    turned = pictures(swept(theta={"values": [0.05, 0.01, 0.0]}))
+    assert pictures(found.isel(theta=[2, 1, 0]).squealmap.plot().svg) == turned
+    # Below all crossings, of a sweep without any too.
+    below = pictures(swept(mu_d={"from": 0.0, "to": 0.12, "points": 4}))
+    assert pictures(found.isel(mu_d=slice(0, 4)).squealmap.plot().svg) == below
+
+
+def test_what_cannot_be_drawn_is_said_without_files():
+    modes = squealmap.modes(FIRST)
+    found = squealmap.linear(FIRST)
+    trace = squealmap.trace(FIRST, instance=2)
+    cases = [
+        (modes.isel(mode=0), "from the first one on"),
+        (modes.isel(mu_s=0, belt_velocity=[0]), "one value is left"),
+        (found.stack(both=("mu_s", "belt_velocity")), "the dimensions are both"),
+        (found.rename(mu_s="q"), "the dimensions are q"),
+        (found.drop_vars("mu_s"), "the values of the axis `mu_s` are not there"),
+        (trace[["x2"]], "its `state`"),
+    ]
+    for part, words in cases:
+        with pytest.raises(squealmap.InputError, match=re.escape(words)):
+            squealmap.plot(part)
+    with pytest.raises(squealmap.InputError, match="name it as quantity"):
+        squealmap.plot(found["growth_rate"])
+
+
+def test_a_sweep_takes_coordinates_of_a_dataset():
+    found = squealmap.linear(FIRST)
+    again = {**FIRST, "axes": {**FIRST["axes"], "mu_s": {"values": found["mu_s"]}}}
+    assert np.array_equal(squealmap.linear(again)["growth_rate"], found["growth_rate"], equal_nan=True)
+    assert "<svg" in found.squealmap.plot("growth", cut={"belt_velocity": found["belt_velocity"][1]}).svg

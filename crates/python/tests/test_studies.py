@@ -209,6 +209,9 @@ def test_fem(tmp_path, program):
     assert found["frequency"].attrs["units"] == "Hz"
     drawn = found.squealmap.plot().svg
     assert pictures(drawn) == pictures((tmp_path / "fem.svg").read_text())
+    assert pictures(found.transpose().sortby("mu", ascending=False).squealmap.plot().svg) == pictures(drawn)
+    with pytest.raises(squealmap.InputError, match="select with lists"):
+        found.isel(mu=0).squealmap.plot()
 
 
 def pictures(svg):

@@ -109,8 +109,12 @@ fn figure_13_is_mode_coupling_then_both_with_slow_sensors() {
             run(&noisy(&samples, decibel, backwards, seed), &known(&rig, backwards, [1.0; 3])).unwrap();
         assert_right(&rig, &found);
         assert!(long(&found).all(couples), "{}", describe(&found));
-        assert_eq!(found.segments[0].verdict.kind, Kind::ModeCoupling, "{}", describe(&found));
         let both = found.segments.iter().position(|s| s.verdict.kind == Kind::Both).unwrap();
+        // The law beside the knee is known by all that lies there: the slope is excluded before it.
+        let before = &found.segments[..both];
+        let leans = before.iter().all(|segment| segment.verdict.leaning == Some(Kind::ModeCoupling));
+        assert!(leans && !before.is_empty(), "{}", describe(&found));
+        let alone = before.iter().all(|segment| segment.verdict.kind == Kind::ModeCoupling);
         // The law, which the mean of slow forces does not show.
         let mut read = 0;
         for segment in long(&found) {
@@ -120,20 +124,22 @@ fn figure_13_is_mode_coupling_then_both_with_slow_sensors() {
             near("level", friction.level.value, law, 0.04 * law);
             read += 1;
             if let Some(slope) = friction.slope.filter(|_| segment.time[0] > at(KNEE) + TOLERANCE * LENGTH) {
-                near("slope", slope.value, (MU_D - MU_S) / KNEE, 3.0 * slope.error);
+                near("slope", slope.value, (MU_D - MU_S) / KNEE, 2.5 * slope.error);
             }
         }
         assert!(read >= 3, "{}", describe(&found));
         let lasts = found.segments[both..].iter().all(|segment| segment.verdict.kind == Kind::Both);
-        ((found.segments[both].time[0] - at(KNEE)) / LENGTH, lasts)
+        ((found.segments[both].time[0] - at(KNEE)) / LENGTH, lasts, alone)
     };
     for (backwards, seed) in [(false, 5), (true, 6)] {
-        let (late, lasts) = told(40.0, backwards, seed);
+        let (late, lasts, alone) = told(40.0, backwards, seed);
         near("late", late, 0.0, TOLERANCE);
-        assert!(lasts);
+        assert!(lasts && alone);
     }
-    let late: Vec<(f64, bool)> = (1..=24).map(|seed| told(20.0, seed % 2 == 0, seed)).collect();
-    assert!(late.iter().all(|(late, lasts)| late.abs() <= TOLERANCE && *lasts), "{late:?}");
+    let found: Vec<(f64, bool, bool)> = (1..=24).map(|seed| told(20.0, seed % 2 == 0, seed)).collect();
+    assert!(found.iter().all(|(late, lasts, _)| late.abs() <= TOLERANCE && *lasts), "{found:?}");
+    // In the others noise bends the law before the knee.
+    assert!(found.iter().filter(|(_, _, alone)| *alone).count() >= 21, "{found:?}");
 }
 
 /// Figure 11: no instability, then a negative slope to the end.

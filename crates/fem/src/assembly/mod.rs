@@ -24,7 +24,7 @@ pub use model::Model;
 pub use numbering::Numbering;
 pub use penalty::Penalty;
 pub use pencil::{Modal, Pencil};
-pub use point::Point;
+pub use point::{Partly, Point};
 pub use sparse::{Pattern, Rows, Symmetric};
 pub use supports::{Supports, Tie};
 pub use surface::{SHARE, Surface, pressures};

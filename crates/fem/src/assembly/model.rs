@@ -1,6 +1,6 @@
 //! What a model is.
 
-use super::{Penalty, Point, Supports};
+use super::{Partly, Penalty, Point, Supports};
 use crate::Error;
 use crate::elements::{Inertia, Kind, Matrices, add_geometric, matrices};
 use crate::material::Material;
@@ -17,6 +17,8 @@ pub struct Model {
     pub supports: Supports,
     /// Points of sliding contact.
     pub contact: Vec<Point>,
+    /// How slave faces are integrated that hang over the edge of their masters.
+    pub partly: Partly,
     /// A contact stiffness, where normal displacements are not to be tied.
     pub penalty: Option<Penalty>,
     /// Displacements (m) of all nodes whose stress stiffens the bodies: those of a static step. That is the stiffness of the elements

@@ -1,6 +1,6 @@
 //! The rows of Z: how each degree of freedom of the mesh moves with the unknowns.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use super::Point;
 use super::Supports;
@@ -168,50 +168,74 @@ fn leaders(nodes: usize, same: &[(usize, usize)]) -> Vec<usize> {
     (0..nodes).map(|node| top(&mut leader, node)).collect()
 }
 
-/// The tied normal displacement n·u_s = Σ w n·u_m, solved for the degree of freedom of the slave that n points along most.
+/// The tied normal displacement n·u_s = Σ w n·u_m, solved for the degree of freedom of the slave that is free yet and counts most: an edge slides
+/// on two surfaces.
 fn follow(
     point: &Point,
     leader: &[usize],
     fate: &[Option<Fate>],
 ) -> Result<(usize, Vec<(usize, f64)>), Error> {
-    let slave = leader[point.slave];
-    let axis = (0..3).max_by(|a, b| point.normal[*a].abs().total_cmp(&point.normal[*b].abs())).unwrap_or(0);
-    for i in 0..3 {
-        if point.normal[i].abs() > 1e-12 && fate[3 * slave + i].is_some() {
-            let what = format!(
-                "node {} is in sliding contact, but its motion along {} is already given by a support, a bond or another \
-                 contact: leave the node out of one of them",
-                point.slave,
-                ["x", "y", "z"][i]
-            );
-            return Err(Error::Support { what });
+    /// What counts as nothing beside the normal.
+    const NOTHING: f64 = 1e-9;
+    let slave = 3 * leader[point.slave];
+    let given = |axis: usize| {
+        let what = format!(
+            "node {} is in sliding contact, but its motion along {} is already given by a support, a bond or another \
+             contact: leave the node out of one of them",
+            point.slave,
+            ["x", "y", "z"][axis]
+        );
+        Error::Support { what }
+    };
+    let supported = |axis: &usize| {
+        point.normal[*axis].abs() > 1e-12 && matches!(fate[slave + axis], Some(Fate::Given(_)))
+    };
+    if let Some(axis) = (0..3).find(supported) {
+        return Err(given(axis));
+    }
+    // What moves along the normal, with what other contacts say of it.
+    let mut moves: BTreeMap<usize, f64> = BTreeMap::new();
+    for axis in 0..3 {
+        for (dof, factor) in followed(slave + axis, point.normal[axis], &|dof| fate[dof].as_ref()) {
+            *moves.entry(dof).or_default() += factor;
         }
     }
-    let mut terms = Vec::new();
-    let scale = 1.0 / point.normal[axis];
-    for i in 0..3 {
-        if i != axis && point.normal[i] != 0.0 {
-            terms.push((3 * slave + i, -point.normal[i] * scale));
-        }
-        for (master, weight) in &point.masters {
-            if point.normal[i] != 0.0 && *weight != 0.0 {
-                terms.push((3 * leader[*master] + i, weight * point.normal[i] * scale));
-            }
+    let most = |a: &usize, b: &usize| {
+        let counts = |axis: &usize| moves.get(&(slave + axis)).map_or(0.0, |factor| factor.abs());
+        counts(a).total_cmp(&counts(b))
+    };
+    let axis = (0..3).rev().max_by(most).unwrap_or(0);
+    let dof = slave + axis;
+    let Some(own) = moves.remove(&dof).filter(|own| fate[dof].is_none() && own.abs() > NOTHING) else {
+        return Err(given(axis));
+    };
+    for (master, weight) in &point.masters {
+        for axis in 0..3 {
+            *moves.entry(3 * leader[*master] + axis).or_default() -= weight * point.normal[axis];
         }
     }
-    Ok((3 * slave + axis, terms))
+    let terms = moves.into_iter().filter(|(_, factor)| *factor != 0.0);
+    Ok((dof, terms.map(|(other, factor)| (other, -factor / own)).collect()))
 }
 
-/// A degree of freedom in terms of unknowns. What it follows is free or given: slaves carry nothing.
+/// A multiple of a degree of freedom in terms of those that follow nothing. No two follow each other.
+fn followed<'a>(dof: usize, factor: f64, fate: &impl Fn(usize) -> Option<&'a Fate>) -> Vec<(usize, f64)> {
+    match fate(dof) {
+        Some(Fate::Follows(terms)) => {
+            terms.iter().flat_map(|(other, share)| followed(*other, factor * share, fate)).collect()
+        }
+        _ => vec![(dof, factor)],
+    }
+}
+
+/// A degree of freedom in terms of unknowns.
 fn expand(dof: usize, fate: &[Fate]) -> (Vec<(usize, f64)>, f64) {
     let (mut row, mut given): (Vec<(usize, f64)>, f64) = (Vec::new(), 0.0);
-    let own = [(dof, 1.0)];
-    let terms = if let Fate::Follows(terms) = &fate[dof] { terms.as_slice() } else { &own };
-    for (other, factor) in terms {
-        match &fate[*other] {
+    for (other, factor) in followed(dof, 1.0, &|dof| Some(&fate[dof])) {
+        match &fate[other] {
             Fate::Free(unknown) => match row.iter_mut().find(|(known, _)| known == unknown) {
                 Some((_, sum)) => *sum += factor,
-                None => row.push((*unknown, *factor)),
+                None => row.push((*unknown, factor)),
             },
             Fate::Given(value) => given += factor * value,
             Fate::Follows(_) => {}

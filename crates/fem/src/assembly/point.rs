@@ -1,5 +1,9 @@
 //! A point of sliding contact.
 
+use std::collections::BTreeMap;
+
+use crate::mesh::FaceRef;
+
 /// A point of sliding contact: the normal displacement of a slave node is tied, and friction acts on its slip.
 ///
 /// The normal points from the master's side to the slave's: a compressive force pushes the slave along it. The slave slides
@@ -15,3 +19,6 @@ pub struct Point {
     /// Unit vector across the normal.
     pub direction: [f64; 3],
 }
+
+/// Places on faces (coordinates of the reference face) and the area of each, m², for faces that lie on their masters in part only.
+pub type Partly = BTreeMap<FaceRef, Vec<([f64; 2], f64)>>;

@@ -23,7 +23,7 @@ impl Springs {
                 what: format!("the contact stiffness is {k} Pa/m, it must be above 0"),
             });
         }
-        let surface = Surface::new(&model.mesh, numbering, &penalty.faces, &model.contact);
+        let surface = Surface::new(model, numbering, &penalty.faces, &model.contact);
         let areas = surface.matrix(&vec![k; model.contact.len()]);
         let gap = along(numbering, &model.contact, |point| point.normal);
         let normal =

@@ -5,42 +5,51 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::Point;
-use super::{Numbering, Rows};
+use super::{Model, Numbering, Point, Rows};
 use crate::elements::{face_rule, face_shape};
-use crate::mesh::{Face, FaceRef, Mesh};
+use crate::mesh::{Face, FaceRef};
 
 /// The slaves' side of a contact.
 #[derive(Debug, Clone)]
 pub struct Surface {
-    /// With the contact point at each node.
-    faces: Vec<(Face, Vec<Option<usize>>)>,
-    places: Vec<[f64; 3]>,
+    faces: Vec<Pressed>,
+}
+
+/// A face of the slaves.
+#[derive(Debug, Clone)]
+struct Pressed {
+    face: Face,
+    /// The contact point at each node.
+    at: Vec<Option<usize>>,
+    /// Places where a field is integrated, and the area of each, m².
+    places: Vec<([f64; 2], f64)>,
 }
 
 impl Surface {
     /// The faces of the slaves, and the contact points on them. On an edge that two surfaces have in common each face takes the points that it
     /// presses.
     #[must_use]
-    pub fn new(mesh: &Mesh, numbering: &Numbering, faces: &[FaceRef], points: &[Point]) -> Self {
+    pub fn new(model: &Model, numbering: &Numbering, faces: &[FaceRef], points: &[Point]) -> Self {
+        let mesh = &model.mesh;
         let mut index: HashMap<usize, Vec<usize>> = HashMap::new();
         for (i, point) in points.iter().enumerate() {
             index.entry(numbering.leader[point.slave]).or_default().push(i);
         }
-        let with_points = |face: Face| {
-            let outward = face_rule(face.kind)
-                .first()
-                .map_or([0.0; 3], |(at, _)| face.area(&face_shape(face.kind, *at).1, &mesh.nodes));
-            let length = length(outward);
+        let pressed = |face: Face| {
+            let area = |at: [f64; 2]| face.area(&face_shape(face.kind, at).1, &mesh.nodes);
+            let rule = face_rule(face.kind);
+            let outward = rule.first().map_or([0.0; 3], |(at, _)| area(*at));
             let presses = |i: &usize| {
                 let along: f64 = (0..3).map(|k| -outward[k] * points[*i].normal[k]).sum();
-                along > std::f64::consts::FRAC_1_SQRT_2 * length
+                along > std::f64::consts::FRAC_1_SQRT_2 * length(outward)
             };
             let point = |node: &usize| index.get(&numbering.leader[*node])?.iter().copied().find(presses);
             let at = face.nodes.iter().map(point).collect();
-            (face, at)
+            let whole = || rule.iter().map(|(at, weight)| (*at, weight * length(area(*at)))).collect();
+            let places = model.partly.get(&face.of).cloned().unwrap_or_else(whole);
+            Pressed { face, at, places }
         };
-        Self { faces: mesh.resolve(faces).into_iter().map(with_points).collect(), places: mesh.nodes.clone() }
+        Self { faces: mesh.resolve(faces).into_iter().map(pressed).collect() }
     }
 
     /// ∫ f N_a N_b dA between contact points, of a field f by its values at the contact points: with f = 1 the areas by which pressures
@@ -48,14 +57,13 @@ impl Surface {
     #[must_use]
     pub fn matrix(&self, field: &[f64]) -> Rows {
         let mut sums: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); field.len()];
-        for (face, at) in &self.faces {
-            for (place, weight) in face_rule(face.kind) {
-                let (value, gradient) = face_shape(face.kind, place);
-                let area = length(face.area(&gradient, &self.places));
+        for Pressed { face, at, places } in &self.faces {
+            for (place, area) in places {
+                let (value, _) = face_shape(face.kind, *place);
                 let f: f64 = at.iter().zip(&value).filter_map(|(p, n)| p.map(|p| n * field[p])).sum();
                 for (p, np) in at.iter().zip(&value).filter_map(|(p, n)| p.map(|p| (p, n))) {
                     for (q, nq) in at.iter().zip(&value).filter_map(|(q, n)| q.map(|q| (q, n))) {
-                        *sums[p].entry(q).or_default() += weight * area * f * np * nq;
+                        *sums[p].entry(q).or_default() += area * f * np * nq;
                     }
                 }
             }
@@ -76,7 +84,7 @@ impl Surface {
     #[must_use]
     pub fn middles(&self) -> Vec<(usize, Vec<usize>)> {
         let mut found = BTreeMap::new();
-        for (face, at) in &self.faces {
+        for Pressed { face, at, .. } in &self.faces {
             let corners = face.kind.corners();
             for (i, middle) in at[corners..].iter().enumerate() {
                 // An edge inside the surface is met twice.

@@ -12,7 +12,7 @@ use faer::linalg::solvers::Solve;
 use super::Point;
 use super::matching::axes;
 use crate::Error;
-use crate::assembly::Tie;
+use crate::assembly::{Partly, Tie};
 use crate::elements::{FaceKind, face_shape, triangle_rule};
 use crate::mesh::{Face, FaceRef, Mesh};
 
@@ -73,6 +73,40 @@ pub fn mortar(
     })
 }
 
+/// Places and areas by which a field on slave faces is integrated that lie on the masters in part only, or not at all. The normal is a unit vector.
+#[must_use]
+pub fn overhangs(mesh: &Mesh, slaves: &[FaceRef], masters: &[FaceRef], normal: [f64; 3]) -> Partly {
+    /// A part of a face up to which it lies on the masters wholly but for rounding.
+    const ROUNDING: f64 = 1e-9;
+    let [along, sideways] = across(normal);
+    let flat = |face: &Face| Flat::new(mesh, face, along, sideways);
+    let masters: Vec<Flat> = mesh.resolve(masters).iter().map(flat).collect();
+    let rule = triangle_rule();
+    let mut found = Partly::new();
+    for face in mesh.resolve(slaves) {
+        let slave = flat(&face);
+        let (mut places, mut shared) = (Vec::new(), 0.0);
+        for master in masters.iter().filter(|master| slave.near(master)) {
+            let overlap = clip(&slave.corners, &master.corners);
+            for i in 1..overlap.len().saturating_sub(1) {
+                let corners = [overlap[0], overlap[i], overlap[i + 1]];
+                let twice = 2.0 * area(&corners);
+                shared += 0.5 * twice;
+                let part = |([u, v], weight): &(Plane, f64)| {
+                    let [a, b, c] = corners;
+                    let place = [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]));
+                    (slave.local(place), weight * twice)
+                };
+                places.extend(rule.iter().map(part));
+            }
+        }
+        if shared < (1.0 - ROUNDING) * area(&slave.corners) {
+            found.insert(face.of, places);
+        }
+    }
+    found
+}
+
 /// Bonds two flat surfaces whose nodes need not match, for [`crate::assembly::Supports::tied`].
 ///
 /// # Errors
@@ -102,7 +136,7 @@ pub(super) fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
 /// D⁻¹ G, row by row.
 fn weights(d: &Entries, g: &Entries) -> Result<Vec<Weighted>, Error> {
     /// A slave node that shares less than this part of the largest area only touches the other surface's edge.
-    const TOUCHES: f64 = 1e-9;
+    const TOUCHES: f64 = 1e-6;
     /// Weights below this are what rounding makes of zero.
     const ZERO: f64 = 1e-13;
     let largest = d.iter().filter(|((a, b), _)| a == b).map(|(_, v)| *v).fold(0.0, f64::max);
@@ -183,8 +217,13 @@ impl Flat {
         (0..corners.len()).map(beyond).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Shape functions at a place, by Newton's method for its coordinates in the reference face.
+    /// Shape functions at a place.
     pub(super) fn shape_at(&self, place: Plane) -> Vec<f64> {
+        face_shape(self.kind, self.local(place)).0
+    }
+
+    /// The coordinates of a place in the reference face, by Newton's method.
+    fn local(&self, place: Plane) -> Plane {
         const STEPS: usize = 30;
         let mut at = if self.kind.corners() == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
         for _ in 0..STEPS {
@@ -204,7 +243,7 @@ impl Flat {
                 break;
             }
         }
-        face_shape(self.kind, at).0
+        at
     }
 }
 

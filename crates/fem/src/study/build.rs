@@ -8,9 +8,10 @@ use super::surfaces::flat;
 use super::values::{check_friction, check_kn, check_modes, check_output, coefficients};
 use super::varied::check_vary;
 use crate::Error;
-use crate::assembly::{Loads, Model, Penalty, Supports, nodal_forces};
+use crate::assembly::{Loads, Model, Partly, Penalty, Supports, nodal_forces};
 use crate::contact::{
-    Point, bonded, bonded_mortar, bonded_points, conforms, mortar, rotating, sliding, sliding_on_rigid,
+    Point, bonded, bonded_mortar, bonded_points, conforms, mortar, overhangs, rotating, sliding,
+    sliding_on_rigid,
 };
 use crate::mesh::{FaceRef, Mesh};
 
@@ -77,11 +78,12 @@ impl Study {
         let (mut faces, mut matching) = (Vec::new(), Vec::new());
         for (i, pair) in document.sliding.iter().enumerate() {
             let key = format!("sliding[{i}]");
-            let (points, slaves, matches) = slide(&model.mesh, &key, pair)?;
-            check_edges(&model.contact, &points, &key)?;
-            model.contact.extend(points);
-            faces.extend(slaves);
-            matching.push(matches);
+            let slid = slide(&model.mesh, &key, pair)?;
+            check_edges(&model.contact, &slid.points, &key)?;
+            model.contact.extend(slid.points);
+            model.partly.extend(slid.partly);
+            faces.extend(slid.slaves);
+            matching.push(slid.matches);
         }
         if let Some(stiffness) = document.friction.contact_stiffness {
             model.penalty = Some(Penalty { stiffness, faces: faces.clone() });
@@ -213,7 +215,17 @@ fn tie(mesh: &Mesh, supports: &mut Supports, key: &str, bond: &Bond) -> Result<(
 }
 
 /// Points of contact, faces of the slaves, whether nodes match.
-fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<FaceRef>, bool), Error> {
+/// One pair of surfaces that slide.
+struct Slid {
+    points: Vec<Point>,
+    slaves: Vec<FaceRef>,
+    /// How slave faces are integrated that hang over.
+    partly: Partly,
+    /// Whether the nodes of both match.
+    matches: bool,
+}
+
+fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<Slid, Error> {
     for (name, vector) in [("direction", pair.direction), ("axis", pair.axis), ("origin", pair.origin)] {
         if let Some(x) = vector.iter().flatten().find(|x| !x.is_finite()) {
             return Err(Error::at(format!("{key}.{name}"), format!("{x} is no finite number")));
@@ -237,8 +249,8 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
         }
     };
     let nodes = mesh.face_nodes(slaves);
-    let (points, matches) = if pair.masters == "rigid" {
-        (sliding_on_rigid(&nodes, normal, direction), true)
+    let (points, partly) = if pair.masters == "rigid" {
+        (sliding_on_rigid(&nodes, normal, direction), None)
     } else {
         let masters = faces_of(mesh, &format!("{key}.masters"), &pair.masters)?;
         let below = mesh.face_nodes(masters);
@@ -263,16 +275,18 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
         }
         let pairs = bonded(mesh, &nodes, &below).ok();
         if pairs.is_some_and(|pairs| conforms(mesh, slaves, masters, &pairs)) {
-            (sliding(mesh, &nodes, &below, normal, direction), true)
+            (sliding(mesh, &nodes, &below, normal, direction), None)
         } else {
-            (mortar(mesh, slaves, masters, normal, direction), false)
+            (mortar(mesh, slaves, masters, normal, direction), Some(overhangs(mesh, slaves, masters, normal)))
         }
     };
     let points = match turn {
         None => points,
         Some((axis, origin)) => points.and_then(|points| rotating(mesh, points, origin, axis)),
     };
-    Ok((points.map_err(|why| Error::at(key, why))?, slaves.to_vec(), matches))
+    let at = |why| Error::at(key, why);
+    let (points, matches) = (points.map_err(at)?, partly.is_none());
+    Ok(Slid { points, slaves: slaves.to_vec(), partly: partly.unwrap_or_default(), matches })
 }
 
 /// Refuses surfaces with nodes in common that are not at right angles: what presses one would press the other, too.

@@ -23,6 +23,7 @@ mod space;
 mod surfaces;
 mod table;
 mod transitions;
+mod turns;
 mod values;
 mod variation;
 mod varied;

@@ -1,6 +1,6 @@
 //! Parts: meshes from blocks and files, with their materials.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use super::document::Constants;
 use super::materials::material;
@@ -95,6 +95,11 @@ pub(super) fn join(
                 };
                 for node in &mut mesh.nodes {
                     (0..3).for_each(|i| node[i] = scale * node[i] + shift[i]);
+                }
+                // A face that two entries of a surface name is one.
+                for faces in mesh.face_sets.values_mut() {
+                    let mut known = HashSet::new();
+                    faces.retain(|face| known.insert(*face));
                 }
                 assign(&mut mesh, &key, materials, own, &mut joined.materials, &known)?;
                 mesh

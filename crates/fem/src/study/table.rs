@@ -33,11 +33,7 @@ pub const COLUMNS: [Column; 10] = [
         unit: "",
         meaning: "minus the real part over the magnitude of the eigenvalue; negative where the mode grows",
     },
-    Column {
-        name: "unstable",
-        unit: "",
-        meaning: "1 where the mode grows, by more than rounding where nothing damps",
-    },
+    Column { name: "unstable", unit: "", meaning: "1 where the mode grows, by more than rounding" },
     Column {
         name: "residual",
         unit: "",

@@ -6,7 +6,7 @@ use super::growth::grows;
 use super::plane::{Plane, Two};
 use crate::Error;
 use crate::assembly::Pencil;
-use crate::modes::{Basis, Factor, Ordering, Pair, coalescence, likeness, nearby, pairs};
+use crate::modes::{Basis, Factor, Ordering, Pair, coalescence, nearby, pairs};
 use crate::sweep::{Mode, Range};
 
 /// What happens to modes at a coefficient of friction.
@@ -70,24 +70,19 @@ impl Search<'_> {
     ) -> Result<(Vec<Transition>, Vec<String>), Error> {
         let (mut found, mut missed) = (Vec::new(), Vec::new());
         for step in 0..self.range.mus.len().saturating_sub(1) {
+            if self.damped {
+                found.extend(self.turns(basis, modes, step, &mut missed)?);
+                continue;
+            }
             for begins in [true, false] {
                 // The side on which there is growth.
                 let (on, off) = if begins { (step + 1, step) } else { (step, step + 1) };
                 let is_on = |mode: &Mode, i: usize| {
                     let lambda = mode.states[i].lambda;
-                    grows(lambda, self.damped) || (!self.damped && grows(-lambda.conj(), false))
+                    grows(lambda, false) || grows(-lambda.conj(), false)
                 };
                 let changed: Vec<usize> =
                     (0..modes.len()).filter(|m| is_on(&modes[*m], on) && !is_on(&modes[*m], off)).collect();
-                if self.damped {
-                    let event = if begins { Event::Onset } else { Event::End };
-                    for mode in changed {
-                        let ends = [off, on].map(|i| (self.range.mus[i], modes[mode].states[i].lambda));
-                        let (mu, frequency) = self.turn(basis, ends)?;
-                        found.push(Transition { event, mu, frequency, modes: vec![mode] });
-                    }
-                    continue;
-                }
                 for group in partners(&changed, modes, on) {
                     // Of the two only the one that decays may be followed.
                     let lambda = modes[group[0]].states[on].lambda;
@@ -173,38 +168,6 @@ impl Search<'_> {
         Ok((grows, parts, pair))
     }
 
-    /// Where a damped mode turns from one side to the other, and its frequency there (Hz), by bisection to rounding. It is followed by its
-    /// shape: other modes that grow may be near.
-    fn turn(&self, basis: &Basis, ends: [(f64, c64); 2]) -> Result<(f64, f64), Error> {
-        const BISECTIONS: usize = 48;
-        let closest = |mu: f64, lambda: c64| -> Result<Pair, Error> {
-            let apart = |pair: &Pair| (pair.lambda - lambda).norm();
-            let all = pairs(&basis.at(mu, self.range.slope))?;
-            all.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).ok_or_else(|| lost(mu, lambda))
-        };
-        let [(mut off, decaying), (mut on, growing)] = ends;
-        let mut known = [closest(off, decaying)?, closest(on, growing)?];
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(off, on);
-            let alike = |pair: &Pair| {
-                let to = |end: &Pair| {
-                    likeness(&end.vector, &pair.vector)
-                        - (end.lambda - pair.lambda).norm() / end.lambda.norm()
-                };
-                to(&known[0]).max(to(&known[1]))
-            };
-            let all = pairs(&basis.at(middle, self.range.slope))?;
-            let pair = all.into_iter().max_by(|a, b| alike(a).total_cmp(&alike(b)));
-            let pair = pair.ok_or_else(|| lost(middle, growing))?;
-            if grows(pair.lambda, true) {
-                (on, known[1]) = (middle, pair);
-            } else {
-                (off, known[0]) = (middle, pair);
-            }
-        }
-        Ok((f64::midpoint(off, on), known[1].frequency()))
-    }
-
     /// The pair that has an eigenvalue which grows, in a space that holds it; `None` where it is not found.
     fn known(&self, basis: &mut Basis, mu: f64, lambda: c64) -> Result<Option<Pair>, Error> {
         /// Apart by no more than this, the space holds it well enough.
@@ -255,7 +218,7 @@ enum One {
 /// A coalescence has a frequency that is no farther than this part from that of the pair near it.
 const NEAR: f64 = 0.05;
 
-fn lost(mu: f64, lambda: c64) -> Error {
+pub(super) fn lost(mu: f64, lambda: c64) -> Error {
     let what = format!(
         "the mode of {:.1} Hz that grows at mu = {mu} is not found on the projected problem: ask for more modes",
         lambda.im / std::f64::consts::TAU

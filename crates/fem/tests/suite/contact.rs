@@ -2,7 +2,7 @@
 
 use faer::c64;
 use squealmap_fem::assembly::{Model, Rows, assemble};
-use squealmap_fem::contact::bonded;
+use squealmap_fem::contact::{bonded, sliding_on_rigid};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::mesh::Block;
 use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, pairs, refine};
@@ -78,5 +78,47 @@ fn friction_does_not_know_the_axes() {
     for lambda in straight {
         let error = found.iter().map(|f| (f - lambda).norm()).fold(f64::INFINITY, f64::min);
         assert!(error < 1e-8 * lambda.norm(), "{lambda}: {error:e}");
+    }
+}
+
+/// A block whose edge slides on two planes at right angles has the same frequencies however it lies, whichever plane comes first.
+#[test]
+fn an_edge_on_two_planes_does_not_know_the_axes() {
+    let cells = [2.into(), 2.into(), 2.into()];
+    let block = Block { origin: [0.0; 3], size: [0.03, 0.02, 0.025], cells, kind: Kind::Hex8 };
+    let mesh = block.mesh().expect("a block");
+    let set = |name| mesh.node_set(name).expect("a side").to_vec();
+    let (below, beside, top) = (set("z0"), set("y0"), set("x1"));
+    let (along, across, up) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let frequencies = |turned: &dyn Fn([f64; 3]) -> [f64; 3], swapped: bool| {
+        let mut model = Model { mesh: mesh.clone(), materials: vec![steel()], ..Model::default() };
+        model.mesh.nodes = mesh.nodes.iter().map(|x| turned(*x)).collect();
+        model.supports.clamp(&top);
+        let free = |nodes: &[usize]| -> Vec<usize> {
+            nodes.iter().copied().filter(|node| !top.contains(node)).collect()
+        };
+        let mut planes = [(free(&below), up), (free(&beside), across)];
+        if swapped {
+            planes.reverse();
+        }
+        for (nodes, normal) in planes {
+            let points = sliding_on_rigid(&nodes, turned(normal), turned(along)).expect("a plane");
+            model.contact.extend(points);
+        }
+        real(&model)
+    };
+    let straight = frequencies(&|x| x, false);
+    // Turned so that the normals are (1, 1, 1)/√3 and (−1, 1, 0)/√2.
+    let turned = |[x, y, z]: [f64; 3]| {
+        let rows = [[1.0, 1.0, -2.0], [-1.0, 1.0, 0.0], [1.0, 1.0, 1.0]];
+        let lengths = [6_f64, 2.0, 3.0].map(f64::sqrt);
+        std::array::from_fn(|i| {
+            [x, y, z].iter().zip(rows).zip(lengths).map(|((c, row), length)| c * row[i] / length).sum()
+        })
+    };
+    for swapped in [false, true] {
+        for (a, b) in straight.iter().zip(frequencies(&turned, swapped)) {
+            assert!((a / b - 1.0).abs() < 1e-9, "{swapped}: {a} {b}");
+        }
     }
 }

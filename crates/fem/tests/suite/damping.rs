@@ -93,7 +93,7 @@ fn a_slope_of_friction_damps_as_it_should() {
     let (numbering_model, n) = (layer::model(Kind::Hex20, 6).expect("the layer"), 6.0_f64);
     let (numbering, pencil) = assemble(&numbering_model).expect("matrices");
     let faces = numbering_model.mesh.face_set("y0").expect("a side");
-    let surface = Surface::new(&numbering_model.mesh, &numbering, faces, &numbering_model.contact);
+    let surface = Surface::new(&numbering_model, &numbering, faces, &numbering_model.contact);
     let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
     let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
     let modes = lowest(&pencil, &factor, 12).expect("real modes");

@@ -30,5 +30,6 @@ mod statics;
 mod stressed;
 mod study;
 mod sweep;
+mod turns;
 mod two_masses;
 mod vary;

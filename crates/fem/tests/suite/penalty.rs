@@ -1,7 +1,7 @@
 //! Contact by a stiffness.
 
 use squealmap_fem::assembly::{Loads, Model, Penalty, Rows, assemble};
-use squealmap_fem::contact::sliding_on_rigid;
+use squealmap_fem::contact::{mortar, overhangs, sliding_on_rigid};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::mesh::Block;
 use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, pairs, refine};
@@ -61,5 +61,41 @@ fn a_high_stiffness_comes_to_multipliers() {
     });
     for (a, b) in errors[0].iter().zip(&errors[1]) {
         assert!(*a < 1e-2 && (8.0..12.0).contains(&(a / b)), "{errors:?}");
+    }
+}
+
+/// A stiff pad that hangs over both edges of what it lies on sinks by the force over the area that both share, wherever the edges of its elements are.
+#[test]
+fn what_hangs_over_does_not_press() {
+    let stiffness = 1e9;
+    let block = |origin, size, cells: [usize; 3]| {
+        Block { origin, size, cells: cells.map(Into::into), kind: Kind::Hex8 }.mesh().expect("a block")
+    };
+    for cells in [1, 3, 4, 8] {
+        let mut model = Model { materials: vec![steel()], ..Model::default() };
+        model.mesh = block([0.0, 0.0, -0.01], [0.01, 0.01, 0.01], [2, 2, 1]);
+        model.mesh.add(block([-0.005, 0.0, 0.0], [0.02, 0.01, 0.01], [cells, 1, 1]), "pad.", 0);
+        let faces = |model: &Model, name| model.mesh.face_set(name).expect("a side").to_vec();
+        let [slaves, masters, top] = ["pad.z0", "z1", "pad.z1"].map(|name| faces(&model, name));
+        let normal = [0.0, 0.0, 1.0];
+        model.contact = mortar(&model.mesh, &slaves, &masters, normal, [1.0, 0.0, 0.0]).expect("a contact");
+        model.partly = overhangs(&model.mesh, &slaves, &masters, normal);
+        model.penalty = Some(Penalty { stiffness, faces: slaves.clone() });
+        model.supports.clamp(model.mesh.node_set("z0").expect("a side"));
+        for (node, _) in model.mesh.nodes.clone().iter().enumerate().filter(|(_, x)| x[2] >= 0.0) {
+            let lower = model.mesh.node_set("z1").expect("a side").contains(&node);
+            if !lower {
+                model.supports.prescribe(&[node], 0, 0.0);
+                model.supports.prescribe(&[node], 1, 0.0);
+            }
+        }
+        let loads = Loads { pressure: vec![(top, 5e4)], ..Loads::default() };
+        let settled = settle(&model, &slaves, &loads, 0.0).expect("a settled pad");
+        let total: f64 = settled.forces.iter().sum();
+        assert!((total - 10.0).abs() < 1e-9, "{cells}: {total} N");
+        let pad = model.mesh.node_set("pad.z1").expect("a side");
+        let sinks = -pad.iter().map(|node| settled.displacement[*node][2]).sum::<f64>() / pad.len() as f64;
+        let exact = 10.0 / (stiffness * 1e-4);
+        assert!((sinks / exact - 1.0).abs() < 1e-3, "{cells}: {sinks} {exact}");
     }
 }

@@ -80,7 +80,7 @@ fn the_judge_knows_the_residuals() {
         let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, shift).expect("a factor");
         let mut basis = Basis::new(&pencil, &lowest(&pencil, &factor, 15).expect("real modes").shapes);
         let faces = model.mesh.face_set("pin.z0").expect("a side");
-        let surface = Surface::new(&model.mesh, &numbering, faces, &model.contact);
+        let surface = Surface::new(&model, &numbering, faces, &model.contact);
         let slope = if damped { surface.matrix(&vec![-3e6; model.contact.len()]) } else { Rows::default() };
         // Vectors that are no real modes, too.
         refine(&pencil, &factor, &mut basis, &[0.4], &slope, 3, 1e-9, 1).expect("a space");

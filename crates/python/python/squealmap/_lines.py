@@ -41,7 +41,9 @@ def _entries(table: Mapping[str, Any], above: str, depth: int = 0) -> Iterator[t
 def _value(value: Any, path: str, depth: int) -> str:
     if depth > _DEEPEST:
         raise TypeError(f"{path}: a sweep has no lists in lists so deep")
-    # Numbers and arrays of numpy, pandas and xarray.
+    # Numbers and arrays of numpy, pandas and xarray, the last of which hold one of numpy.
+    if hasattr(value, "dims"):
+        value = value.values
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, bool):

@@ -1,0 +1,111 @@
+//! Modes that damp: where they turn to growth is where the eigenvalue crosses, whatever values of μ are taken, and rounding is no growth.
+
+use squealmap_fem::study::document::Document;
+use squealmap_fem::study::{Event, Outcome, Study, compute};
+
+fn outcome(text: &str) -> Outcome {
+    let study =
+        Study::new(Document::read(text).expect("a description"), &|path| Err(format!("{path} is no file")));
+    compute(&study.expect("a study"), &mut |_| {}).expect("modes")
+}
+
+/// Two blocks of tetrahedra; the upper one damps.
+fn blocks(values: &str) -> String {
+    format!(
+        r#"
+        [parts.u]
+        kind = "block"
+        element = "tet4"
+        origin = [0.004, 0.0, 0.0]
+        size = [0.009, 0.008, 0.012]
+        cells = [2, 2, 3]
+        material = "a"
+        [parts.l]
+        kind = "block"
+        element = "tet4"
+        origin = [0.0, -0.002, -0.008]
+        size = [0.02, 0.012, 0.008]
+        cells = [4, 3, 2]
+        material = "b"
+        [materials.a]
+        young = 70e9
+        poisson = 0.3
+        density = 2700.0
+        rayleigh = [20.0, 2e-8]
+        [materials.b]
+        young = 210e9
+        poisson = 0.28
+        density = 7800.0
+        [[supports]]
+        set = "u.z1"
+        axes = "xyz"
+        [[supports]]
+        set = "l.z0"
+        axes = "xyz"
+        [[sliding]]
+        slaves = "u.z0"
+        masters = "l.z1"
+        direction = [0.3, 1.0, 0.0]
+        [friction]
+        mu = {{ {values} }}
+        [modes]
+        count = 12
+        "#
+    )
+}
+
+/// Between the coarse values two modes come near each other and exchange their shapes. At 31 and 121 values of μ, where each is followed without doubt, the
+/// three cross where they are told to here; bisection between the wrong ones ended at a dyadic part of the step.
+#[test]
+fn modes_that_exchange_their_shapes_turn_where_they_cross() {
+    let found = outcome(&blocks("values = [0.0, 0.5, 1.0, 1.5]"));
+    assert_eq!(found.remarks, Vec::<String>::new());
+    let told: Vec<(Event, f64, f64)> =
+        found.transitions.iter().map(|t| (t.event, t.mu, t.frequency)).collect();
+    let expected = [(0.234_441, 181_857.6), (1.176_830, 96_198.75), (1.482_952, 158_865.5)];
+    assert_eq!(told.len(), expected.len(), "{told:?}");
+    for ((event, mu, frequency), (at, hertz)) in told.iter().zip(expected) {
+        let near = (mu - at).abs() < 2e-6 && (frequency / hertz - 1.0).abs() < 1e-5;
+        assert!(*event == Event::Onset && near, "{told:?}");
+    }
+}
+
+/// A square column has modes that nothing damps beside two that damping is given for, or a damping that is none: their growth is rounding.
+#[test]
+fn rounding_is_no_growth() {
+    let column = |damping: [&str; 2]| {
+        format!(
+            r#"
+            [parts.c]
+            kind = "block"
+            element = "hex8"
+            origin = [0.0, 0.0, 0.0]
+            size = [0.01, 0.01, 0.03]
+            cells = [2, 2, 3]
+            material = "a"
+            [materials.a]
+            young = 70e9
+            poisson = 0.3
+            density = 2700.0
+            {}
+            [[supports]]
+            set = "c.z1"
+            axes = "xyz"
+            [[sliding]]
+            slaves = "c.z0"
+            masters = "rigid"
+            direction = [1.0, 0.0, 0.0]
+            [friction]
+            mu = {{ values = [0.0, 0.001, 0.005, 0.01, 0.02, 0.1, 0.3] }}
+            [modes]
+            count = 6
+            {}
+            "#,
+            damping[0], damping[1]
+        )
+    };
+    for damping in [["", "damping_ratios = [0.01, 0.02]"], ["rayleigh = [0.0, 1e-30]", ""]] {
+        let found = outcome(&column(damping));
+        assert_eq!(found.transitions, Vec::new(), "{damping:?}");
+    }
+}
