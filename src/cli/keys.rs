@@ -6,7 +6,7 @@ use crate::cli::error::Result;
 use crate::cli::talk;
 use clap::Args;
 use serde_json::{Value as Json, json};
-use squealmap::sweep::columns::{Column, Content, Values, computed};
+use squealmap::sweep::columns::{Column, Content, Values, Window, computed};
 use squealmap::sweep::spec::keys::{Key, SECTIONS, all, named};
 
 /// Arguments of `keys`.
@@ -170,6 +170,6 @@ fn column_to_json(column: &Column) -> Json {
         "meaning": column.meaning,
         "holds": holds(column),
         "asked_by": column.group.asked_by(),
-        "of_the_window": column.is_of_the_window,
+        "of_the_window": column.window != Window::Not,
     })
 }

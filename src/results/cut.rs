@@ -4,7 +4,7 @@ use crate::results::choose::{Taken, choose_all};
 use crate::results::csv::Table;
 use crate::results::error::{Error, Result};
 use crate::results::number::NumberColumn;
-use crate::results::trust;
+use crate::results::trust::{self, Doubt};
 use crate::sweep::columns::Cell;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::Map;
@@ -170,6 +170,7 @@ pub fn cut_csv(map: &Map, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec
     });
     let header = ["panel", "curve"].into_iter().chain(swept).map(str::to_owned).chain(names);
     let header: Vec<String> = header.collect();
+    let doubts: Vec<Doubt<'_>> = quantities.iter().map(|column| Doubt::of(column)).collect();
     let mut table = Table::new(header.iter().map(String::as_str))?;
     for (panel, of_panel) in cut.panels.iter().enumerate() {
         for (curve, of_curve) in of_panel.curves.iter().enumerate() {
@@ -177,16 +178,19 @@ pub fn cut_csv(map: &Map, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec
                 let numbers = [panel + 1, curve + 1].map(|number| number.to_string());
                 let swept =
                     grid.coordinates(*instance).into_iter().map(|value| Cell::from(value).to_string());
-                let of = |column: &&NumberColumn| {
-                    let value = Cell::from(column.values.get(*instance).copied().flatten()).to_string();
+                let of = |(column, doubt): (&&NumberColumn, &Doubt<'_>)| {
+                    let number = column.values.get(*instance).copied().flatten();
+                    let value = Cell::from(number).to_string();
                     let record = map.records.get(*instance);
-                    let settled = u8::from(!record.is_some_and(|record| trust::is_unsettled(column, record)))
-                        .to_string();
-                    let settled = if value.is_empty() { String::new() } else { settled };
+                    let unsettled = record.is_some_and(|record| doubt.is_unsettled_in(record, number));
+                    let settled =
+                        if value.is_empty() { String::new() } else { u8::from(!unsettled).to_string() };
                     let settled = trust::is_of_the_window(column).then_some(settled);
                     std::iter::once(value).chain(settled)
                 };
-                table.row(numbers.into_iter().chain(swept).chain(quantities.iter().flat_map(of)))?;
+                table.row(
+                    numbers.into_iter().chain(swept).chain(quantities.iter().zip(&doubts).flat_map(of)),
+                )?;
             }
         }
     }

@@ -1,7 +1,11 @@
-//! Which numbers of a map cannot be trusted: those of a measuring window in which the response has not settled.
+//! Which numbers of a map cannot be trusted: those of a measuring window in which the response has not settled, or in which a vibration that ends in the
+//! equilibrium has not died out.
 
 use crate::engine::record::Record;
+use crate::engine::regime::Regime;
 use crate::results::number::NumberColumn;
+use crate::sweep::columns::Window;
+use crate::sweep::label::Label;
 
 /// Whether a column is one of the large start of two.
 pub(crate) fn is_of_large_start(column: &NumberColumn) -> bool {
@@ -10,17 +14,41 @@ pub(crate) fn is_of_large_start(column: &NumberColumn) -> bool {
 
 /// Whether the values of a column mean little where the response has not settled.
 pub(crate) fn is_of_the_window(column: &NumberColumn) -> bool {
-    column.row().is_some_and(|row| row.is_of_the_window)
+    column.row().is_some_and(|row| row.window != Window::Not)
 }
 
-/// Whether the value of this record in a column is that of a response that has not settled.
-pub(crate) fn is_unsettled(column: &NumberColumn, record: &Record) -> bool {
-    let settled = if is_of_large_start(column) {
-        record.large().and_then(|large| large.settled)
-    } else {
-        record.settled
-    };
-    is_of_the_window(column) && settled == Some(false)
+/// Which values of a column are not those of a settled response.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Doubt<'a> {
+    column: &'a NumberColumn,
+    /// Size of a vibration above which an instance that ends in its equilibrium still decays; `None` for what is not one.
+    decays: Option<f64>,
+}
+
+impl<'a> Doubt<'a> {
+    /// Of a column.
+    pub(crate) fn of(column: &'a NumberColumn) -> Doubt<'a> {
+        /// The part of the largest value of the map.
+        const LEFT: f64 = 0.01;
+        let largest = || column.values.iter().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let is_vibration = column.row().is_some_and(|row| row.window == Window::Vibration);
+        Doubt { column, decays: is_vibration.then(|| LEFT * largest()) }
+    }
+
+    /// Whether the value of an instance with this label, from the start that the column belongs to, is none.
+    pub(crate) fn is_unsettled(&self, label: Label, value: Option<f64>) -> bool {
+        let decays = || {
+            let left = self.decays.zip(value).is_some_and(|(most, value)| value.abs() > most);
+            left && label.regime() == Some(Regime::Equilibrium)
+        };
+        is_of_the_window(self.column) && (label.settled() == Some(false) || decays())
+    }
+
+    /// The same of a record.
+    pub(crate) fn is_unsettled_in(&self, record: &Record, value: Option<f64>) -> bool {
+        let of = if is_of_large_start(self.column) { record.large() } else { Some(record) };
+        of.is_some_and(|of| self.is_unsettled(Label::from(of), value))
+    }
 }
 
 #[cfg(test)]

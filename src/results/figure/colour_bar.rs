@@ -8,7 +8,7 @@ use crate::results::figure::tones::Tones;
 use squealmap_figure::cyclic;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
 use squealmap_figure::key::{self, Sample};
-use squealmap_figure::scale::{Scale, Tick, axis_unit};
+use squealmap_figure::scale::{Scale, Tick};
 use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
 use squealmap_figure::text::Text;
 
@@ -29,7 +29,7 @@ pub(crate) fn draw(field: &Field<'_>, panels: &Panels, svg: &mut Svg, [x, y]: [f
     if let Tones::Named(names) = field.tones {
         return named(field, names, panels, svg, [x, y], width);
     }
-    let beside = axis_unit("", field.scale.exponent()).plain(field.label);
+    let beside = Text::from(field.label);
     let room = beside.width(TICK_SIZE, false) + 6.0;
     let frame = Frame { x, y, width: (width - room).min(LONGEST), height: BAR };
     let tones = field.tones;

@@ -1,6 +1,7 @@
 //! A quantity of a sweep with one axis of numbers: a curve along it, as a block of a map's figure.
 
 use crate::results::figure::field::Field;
+use crate::results::figure::isolines::PLATE;
 use crate::results::figure::look::Content;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
@@ -10,7 +11,7 @@ use squealmap_figure::jumps::stepped;
 use squealmap_figure::key::Sample;
 use squealmap_figure::marks::{MARK, UNSETTLED, open_marks};
 use squealmap_figure::plot::{FIRST, Plot, ZERO};
-use squealmap_figure::scale::{Scale, Tick};
+use squealmap_figure::scale::{Scale, Tick, value_label};
 use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::{cyclic, key, letters};
 
@@ -118,10 +119,11 @@ pub(crate) fn draw(
     let frame = Frame { x: x + left, y: top, width: width - left - RIGHT, height };
     let position = Scale::Linear { low: 0.0, high: 1.0 };
     let plot = Plot { frame, x: &position, y: &scale };
-    if let Content::Quantity { levels, .. } = content {
-        for level in levels.iter().filter(|level| (0.0..=1.0).contains(&scale.position(**level))) {
-            plot.curve(svg, [(0.0, *level), (1.0, *level)], LEVEL);
-        }
+    let levels = if let Content::Quantity { levels, .. } = content { levels } else { &[] };
+    let levels: Vec<f64> =
+        levels.iter().copied().filter(|level| (0.0..=1.0).contains(&scale.position(*level))).collect();
+    for level in &levels {
+        plot.curve(svg, [(0.0, *level), (1.0, *level)], LEVEL);
     }
     if field.has_sign() && (0.0..=1.0).contains(&scale.position(0.0)) {
         plot.curve(svg, [(0.0, 0.0), (1.0, 0.0)], ZERO);
@@ -132,6 +134,15 @@ pub(crate) fn draw(
         starts_block::curves(svg, &plot, panels, field.basins(), same_class(panels));
     }
     open_marks(svg, &plot, doubtful, FIRST);
+    // Each line has its value at its right end, in the notation of the axis.
+    let unit = 10_f64.powi(scale.exponent());
+    for level in levels {
+        let label = value_label(level / unit);
+        let (right, up) = (frame.x + frame.width - 2.0, frame.up(scale.position(level)));
+        let wide = label.width(TICK_SIZE, false);
+        svg.rect([right - wide - 1.0, up - 0.5 * TICK_SIZE, wide + 2.0, TICK_SIZE], PLATE);
+        svg.text(right, up + 0.36 * TICK_SIZE, &label, Style::new(TICK_SIZE, Anchor::End));
+    }
     frame.border(svg);
     let x_ticks = panels.x.ticks(frame.width, Direction::Horizontal, TICK_SIZE);
     frame.x_ticks(svg, &x_ticks, true);

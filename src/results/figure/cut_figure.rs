@@ -9,7 +9,7 @@ use crate::results::figure::panels::{selection, setting};
 use crate::results::figure::picture_axis::{Direction, PictureAxis};
 use crate::results::figure::words;
 use crate::results::number::NumberColumn;
-use crate::results::trust;
+use crate::results::trust::{self, Doubt};
 use crate::sweep::label::Label;
 use crate::sweep::map::Map;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
@@ -92,14 +92,15 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
     let across = page - left - RIGHT;
     let columns = panels.len() as f64;
     let width = (across - (columns - 1.0) * GAP_ACROSS) / columns;
-    let unsettled = |column: &NumberColumn, instance: usize| {
-        map.records.get(instance).is_some_and(|record| trust::is_unsettled(column, record))
+    let doubts: Vec<Doubt<'_>> = quantities.iter().map(|column| Doubt::of(column)).collect();
+    let unsettled = |row: usize, instance: usize| {
+        let value = value(quantities[row], instance);
+        value.is_some()
+            && map.records.get(instance).is_some_and(|record| doubts[row].is_unsettled_in(record, value))
     };
     let doubtful = panels.iter().any(|panel| {
         let shown = curves.iter().flat_map(|curve| &panel.curves[*curve].instances);
-        let of = |instance: &usize| {
-            quantities.iter().any(|column| unsettled(column, *instance) && value(column, *instance).is_some())
-        };
+        let of = |instance: &usize| (0..quantities.len()).any(|row| unsettled(row, *instance));
         shown.clone().any(of)
     });
     y += legend(&mut svg, panels[0], &curves, doubtful, [left, y], across);
@@ -126,7 +127,7 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
                 let curve = &panel.curves[*curve];
                 let points = points(column, curve, &x);
                 let doubtful = points.iter().zip(&curve.instances);
-                let doubtful = doubtful.filter(|(_, instance)| unsettled(column, **instance));
+                let doubtful = doubtful.filter(|(_, instance)| unsettled(row, **instance));
                 let doubtful = doubtful.map(|(point, _)| *point);
                 plot.curve(&mut svg, drawn(map, column, curve, &points, &scales[row]), stroke);
                 open_marks(&mut svg, &plot, doubtful, stroke);

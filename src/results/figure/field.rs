@@ -6,7 +6,7 @@ use crate::results::figure::panels::Panels;
 use crate::results::figure::tones::Tones;
 use crate::results::figure::words;
 use crate::results::number::NumberColumn;
-use crate::results::trust;
+use crate::results::trust::Doubt;
 use crate::sweep::columns::{self, Column, Reading};
 use squealmap_figure::cyclic;
 use squealmap_figure::frame::LABEL_SIZE;
@@ -57,10 +57,9 @@ impl<'a> Field<'a> {
                     basins: &[],
                     undefined: column.values.iter().filter(|value| value.is_none()).count(),
                     value: Box::new(value),
-                    unsettled: if trust::is_of_the_window(column) {
-                        Box::new(|place: usize| panels.labels[place].settled() == Some(false))
-                    } else {
-                        Box::new(|_| false)
+                    unsettled: {
+                        let doubt = Doubt::of(column);
+                        Box::new(move |place: usize| doubt.is_unsettled(panels.labels[place], value(place)))
                     },
                 })
             }
@@ -137,7 +136,7 @@ impl<'a> Field<'a> {
     /// The heading above the block, as lines of this width, points.
     pub(crate) fn heading(&self, room: f64) -> Vec<Text> {
         if let Some(column) = self.column {
-            return words::label(column, 0, room, LABEL_SIZE).wrapped(room, LABEL_SIZE);
+            return words::label(column, self.scale.exponent(), room, LABEL_SIZE).wrapped(room, LABEL_SIZE);
         }
         if self.basins.is_empty() {
             return Text::from(self.label).wrapped(room, LABEL_SIZE);

@@ -20,7 +20,7 @@ const STROKES: [&str; 2] = [
     r##"class="isoline" fill="none" stroke="#000000" stroke-width="0.6" stroke-linejoin="round""##,
 ];
 /// Behind a label.
-const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.8""##;
+pub(super) const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.8""##;
 /// Free room around a label, points.
 const ROOM: f64 = 1.5;
 
@@ -53,7 +53,7 @@ pub(crate) fn draw(
         svg.path(&data.collect::<String>(), stroke);
     }
     let mut taken: Vec<Area> = Vec::new();
-    // In the notation of the bar, which may have a power of ten beside it.
+    // In the notation of the bar, whose power of ten is in the heading.
     let unit = 10_f64.powi(field::exponent(column));
     for (level, line) in &lines {
         let label = value_label(level / unit);

@@ -1,7 +1,7 @@
 //! What varies, what may be varied, which columns there are.
 
 use crate::model::{PARAMS, ParamInfo, Range};
-use crate::sweep::columns::{Column, Group, Reading, columns};
+use crate::sweep::columns::{Column, Group, Reading, Window, columns};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::spec::{Analysis, Starts};
 use serde_json::{Value as Json, json};
@@ -96,7 +96,7 @@ fn column(column: &Column) -> Json {
         "meaning": column.meaning,
         "print": column.print[0],
         "signed": column.reading == Reading::Sign,
-        "response": column.is_of_the_window || !matches!(column.group, Group::Linear | Group::Always),
+        "response": column.window != Window::Not || !matches!(column.group, Group::Linear | Group::Always),
         "names": names(column),
     })
 }

@@ -22,6 +22,8 @@ const TALLEST: f64 = 190.0;
 const FLATTEST: f64 = 90.0;
 /// Between pictures, points.
 const GAP: f64 = 8.0;
+/// From one line of words to the next, points.
+const LINE: f64 = LABEL_SIZE + 2.0;
 /// Height of the words above a pair of pictures, points.
 const HEAD: f64 = 14.0;
 /// Height of the words below each picture, points.
@@ -74,35 +76,51 @@ fn page(
     let mut y = MARGIN + title(&mut svg, look.title(&bodies.title), width - 2.0 * MARGIN);
     let whole = width - 2.0 * MARGIN;
     let pair = 2.0 * column + GAP;
-    for (row, shapes) in shown.chunks(columns).enumerate() {
-        for (place, shape) in shapes.iter().enumerate() {
+    let captions: Vec<Vec<Text>> = shown
+        .iter()
+        .enumerate()
+        .map(|(index, shape)| caption(bodies, shape).wrapped(pair - letters::width(index), LABEL_SIZE))
+        .collect();
+    let feet: Vec<[Vec<Text>; 2]> = pictures
+        .iter()
+        .map(|both| both.each_ref().map(|shown| wrapped(&shown.words, column + GAP - 2.0, TICK_SIZE)))
+        .collect();
+    let head = HEAD + LINE * (captions.iter().map(Vec::len).max().unwrap_or(1) - 1) as f64;
+    let lines = feet.iter().flatten().map(Vec::len).max().unwrap_or(0);
+    let foot = FOOT + (TICK_SIZE + 2.0) * lines.saturating_sub(2) as f64;
+    for (row, captions) in captions.chunks(columns).enumerate() {
+        for (place, caption) in captions.iter().enumerate() {
             let index = row * columns + place;
             let x = MARGIN + place as f64 * (pair + GAP);
             letters::draw_at(&mut svg, index, [x, y]);
-            let base = y + letters::ASCENT * LABEL_SIZE;
             let from = x + letters::width(index);
-            svg.text(from, base, &caption(bodies, shape), Style::new(LABEL_SIZE, Anchor::Start));
+            for (line, words) in caption.iter().enumerate() {
+                let base = y + letters::ASCENT * LABEL_SIZE + LINE * line as f64;
+                svg.text(from, base, words, Style::new(LABEL_SIZE, Anchor::Start));
+            }
             for (side, picture) in pictures[index].iter().enumerate() {
                 let left = x + side as f64 * (column + GAP);
-                picture.picture.paint(&mut svg, [left, y + HEAD, column, height], fill);
-                for (line, words) in picture.words.iter().enumerate() {
-                    let below = y + HEAD + height + TICK_SIZE + 2.0 + line as f64 * (TICK_SIZE + 2.0);
+                picture.picture.paint(&mut svg, [left, y + head, column, height], fill);
+                for (line, words) in feet[index][side].iter().enumerate() {
+                    let below = y + head + height + TICK_SIZE + 2.0 + line as f64 * (TICK_SIZE + 2.0);
                     svg.text(left + 0.5 * column, below, words, Style::new(TICK_SIZE, Anchor::Middle));
                 }
             }
         }
-        y += HEAD + height + FOOT + 4.0;
+        y += head + height + foot + 4.0;
     }
     // Axes and sliding stand left of the scale of colours.
     let below = y + 1.8 * AXIS;
     triad(&mut svg, [MARGIN + AXIS, y + 1.2 * AXIS]);
+    let mut taken = 2.4 * AXIS;
     if let Some(contact) = bodies.sliding.filter(|contact| !contact.turns) {
         let at = [MARGIN + 3.8 * AXIS, y + 0.7 * AXIS];
         arrow(&mut svg, at, contact.direction);
         svg.text(at[0], below, &Text::from("sliding"), Style::new(TICK_SIZE, Anchor::Middle));
+        taken = 4.8 * AXIS;
     }
     let has_phase = pictures.iter().any(|[_, normal]| normal.has_phase);
-    y = bar(&mut svg, [MARGIN, y + 2.0], whole, has_phase).max(below + 2.0);
+    y = bar(&mut svg, [MARGIN, y + 2.0], [whole, taken], below, has_phase).max(below + 2.0);
     (svg, [width, y + MARGIN])
 }
 
@@ -219,21 +237,37 @@ fn fill(value: f64) -> String {
     }
 }
 
-/// The scale of colours below the pictures; returns its lower end.
-fn bar(svg: &mut Svg, [x, y]: [f64; 2], width: f64, has_phase: bool) -> f64 {
-    const LENGTH: f64 = 140.0;
+/// Texts as lines of this width, points.
+fn wrapped(texts: &[Text], width: f64, size: f64) -> Vec<Text> {
+    texts.iter().flat_map(|text| text.wrapped(width, size)).collect()
+}
+
+/// The scale of colours below the pictures, `below` the lower end of what takes so much of the width beside it; returns its lower end.
+fn bar(svg: &mut Svg, [x, y]: [f64; 2], [width, taken]: [f64; 2], below: f64, has_phase: bool) -> f64 {
     const THICK: f64 = 6.0;
     const STEPS: usize = 70;
-    let from = x + 0.5 * (width - LENGTH);
+    /// The numbers at the ends stand out.
+    const ENDS: f64 = 6.0;
+    const LONGEST: f64 = 140.0;
+    let mut words =
+        vec![Text::from("displacement over its largest; its largest is given over that of the mode")];
+    if has_phase {
+        words.push(Text::from("phase: by how much the normal displacement leads that along the sliding"));
+    }
+    // In the middle of the page, where the words have room beside what is there; else beside it, and the words below both.
+    let longest = words.iter().map(|words| words.width(LABEL_SIZE, false)).fold(0.0, f64::max);
+    let middle = 0.5 * (width - longest) >= taken;
+    let length = if middle { LONGEST } else { LONGEST.min(width - taken - 2.0 * ENDS) };
+    let from = if middle { x + 0.5 * (width - length) } else { x + 0.5 * (taken + width - length) };
     for step in 0..STEPS {
         let part = (step as f64 + 0.5) / STEPS as f64;
         let colour = fill(2.0 * part - 1.0);
-        let left = from + LENGTH * step as f64 / STEPS as f64;
-        svg.rect([left, y, LENGTH / STEPS as f64 + 0.2, THICK], &format!(r#"fill="{colour}""#));
+        let left = from + length * step as f64 / STEPS as f64;
+        svg.rect([left, y, length / STEPS as f64 + 0.2, THICK], &format!(r#"fill="{colour}""#));
     }
-    svg.rect([from, y, LENGTH, THICK], r##"fill="none" stroke="#000000" stroke-width="0.5""##);
+    svg.rect([from, y, length, THICK], r##"fill="none" stroke="#000000" stroke-width="0.5""##);
     for (part, value) in [(0.0, -1.0), (0.5, 0.0), (1.0, 1.0)] {
-        let at = from + part * LENGTH;
+        let at = from + part * length;
         svg.path(
             &format!("M{} {}v2", number(at), number(y + THICK)),
             r##"stroke="#000000" stroke-width="0.5""##,
@@ -245,17 +279,13 @@ fn bar(svg: &mut Svg, [x, y]: [f64; 2], width: f64, has_phase: bool) -> f64 {
             Style::new(TICK_SIZE, Anchor::Middle),
         );
     }
-    let halves = ["displacement over its largest;", "its largest is given over that of the mode"];
-    let whole = halves.join(" ");
-    let fits = Text::from(whole.as_str()).width(LABEL_SIZE, false) <= width;
-    let mut lines = if fits { vec![whole.as_str()] } else { halves.to_vec() };
-    if has_phase {
-        lines.push("phase: by how much the normal displacement leads that along the sliding");
-    }
     let mut base = y + THICK + 6.0 + TICK_SIZE;
-    for line in lines {
+    if !middle {
+        base = base.max(below + 2.0);
+    }
+    for line in wrapped(&words, width, LABEL_SIZE) {
         base += LABEL_SIZE;
-        svg.text(from + 0.5 * LENGTH, base, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Middle));
+        svg.text(x + 0.5 * width, base, &line, Style::new(LABEL_SIZE, Anchor::Middle));
         base += 2.0;
     }
     base - 2.0

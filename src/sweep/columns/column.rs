@@ -86,6 +86,17 @@ pub(super) enum Source {
     Record(Values),
 }
 
+/// What a column is of the measuring window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Window {
+    /// Nothing: it is read before the window, or of the run as a whole.
+    Not,
+    /// A quantity that means little where the response has not settled.
+    Quantity,
+    /// A size of the vibration, which is 0 at rest: of a motion that decays it is what is left in the window.
+    Vibration,
+}
+
 /// One output column.
 #[derive(Clone, Copy, Debug)]
 pub struct Column {
@@ -99,9 +110,8 @@ pub struct Column {
     pub print: [&'static str; 2],
     /// The analysis it belongs to.
     pub group: Group,
-    /// Whether it is a quantity of the measuring window, which means little where the response has not settled. What is read
-    /// before the window, or of the run as a whole, is none.
-    pub is_of_the_window: bool,
+    /// What it is of the measuring window.
+    pub window: Window,
     /// How its values are read.
     pub reading: Reading,
     /// Whether it is of the large start of two.
@@ -127,7 +137,7 @@ impl Column {
             meaning,
             print: [print[0], print[print.len() - 1]],
             group,
-            is_of_the_window: false,
+            window: Window::Not,
             reading: Reading::Linear,
             is_of_large_start: false,
             is_hidden: false,
@@ -137,7 +147,12 @@ impl Column {
 
     /// It is a quantity of the measuring window.
     pub(super) const fn window(self) -> Column {
-        Column { is_of_the_window: true, ..self }
+        Column { window: Window::Quantity, ..self }
+    }
+
+    /// It is a size of the vibration in the measuring window.
+    pub(super) const fn vibration(self) -> Column {
+        Column { window: Window::Vibration, ..self }
     }
 
     /// Its values are read so.

@@ -13,7 +13,7 @@ mod values;
 
 pub use cell::Cell;
 pub use class::Class;
-pub use column::{Column, Group, LARGE_SUFFIX, Reading};
+pub use column::{Column, Group, LARGE_SUFFIX, Reading, Window};
 pub use list::{columns, computed, find, numbers, shares};
 pub use table::{REGIME, STATUS, TYPE};
 pub use values::{Content, Place, Share, Values};

@@ -45,7 +45,7 @@ fn a_sweep_of_one_axis_has_curves() {
     });
     sweep.spec.title.clear();
     let values = (0..25).map(|k| (k != 12).then(|| of(0.025 * f64::from(k)))).collect();
-    let column = column("x2_std", "m", values);
+    let column = column("x2_mean", "m", values);
     let quantity = Content::Quantity { column: &column, levels: &[0.0, 9.0] };
     let contents = vec![Content::classes(Colouring::Type, false), quantity];
     let svg =

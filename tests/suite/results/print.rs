@@ -96,7 +96,7 @@ fn amplitudes(sweep: &Map) -> NumberColumn {
     NumberColumn { name: "x2_std".to_owned(), unit: "m".to_owned(), meaning: String::new(), values }
 }
 
-/// The values on lines are those of the bar, with the same power of ten, and stand in the bar too; short lines have theirs.
+/// The values on lines are those of the bar, with the power of ten of the heading, and stand in the bar too; short lines have theirs.
 #[test]
 fn a_map_has_one_notation() {
     let axes = vec![span(Param::MuS, 0.0, 0.6, 5), span(Param::MuD, 0.0, 0.6, 5)];
@@ -112,7 +112,7 @@ fn a_map_has_one_notation() {
     }
     let factor = svg.lines().find(|line| line.starts_with("<text") && line.contains("(10<")).unwrap();
     let words: String = factor.split('>').filter_map(|part| part.split('<').next()).collect();
-    assert_eq!(words.trim(), "(10−3)");
+    assert_eq!(words.trim(), "Standard deviation of x2 (10−3 m)");
     let marks = svg.lines().rfind(|line| line.contains("class=\"level\"")).unwrap();
     assert_eq!(marks.matches('M').count(), 3, "three lines across the bar");
 }

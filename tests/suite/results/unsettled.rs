@@ -69,6 +69,23 @@ fn unsettled_cells_are_dotted_and_no_others() {
     assert_eq!(marked(&quantity(&sweep(axes(), &[]), &column("x2_std", 36))), (0, false));
 }
 
+/// What ends in the equilibrium still decays where more than a hundredth of the largest vibration is left of it: that is said of the sizes of a
+/// vibration alone.
+#[test]
+fn what_still_decays_is_marked_like_what_has_not_settled() {
+    let axes = Grid::Axes(vec![span(Param::MuS, 0.0, 0.6, 6), span(Param::MuD, 0.0, 0.6, 6)]);
+    let at_rest = [0, 1, 2, 7];
+    let map = map(axes, |k, _| {
+        record(Kind::Stable, if at_rest.contains(&k) { Regime::Equilibrium } else { Regime::Slip }, true)
+    });
+    // 0 and 0.2 of 35 have died out, 2 and 7 have not.
+    let mut sizes = column("x2_std", 36);
+    sizes.values[1] = Some(0.2);
+    assert!(quantity(&map, &sizes).contains(">not settled (2)<"));
+    sizes.name = "x2_mean".to_owned();
+    assert_eq!(marked(&quantity(&map, &sizes)), (0, false));
+}
+
 #[test]
 fn unsettled_points_are_dotted() {
     let keys = vec![AxisKey::Param(Param::MuS), AxisKey::Param(Param::MuD)];
