@@ -69,6 +69,7 @@ fn axis(axis: &Axis) -> Json {
 
 fn param(row: &ParamInfo) -> Json {
     let [least, most] = limits(row.range);
+    let open = matches!(row.range, Range::Positive | Range::Open(..));
     json!({
         "key": row.name,
         "symbol": row.symbol,
@@ -77,6 +78,7 @@ fn param(row: &ParamInfo) -> Json {
         "range": row.range.to_string(),
         "least": least,
         "most": most,
+        "open": open,
     })
 }
 

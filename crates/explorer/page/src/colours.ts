@@ -5,12 +5,16 @@ import { type Class, type Column, shown } from "./sweep";
 /** Red, green, blue, each from 0 to 255. */
 export type Colour = [number, number, number];
 
-/** Anchors of ramps: cividis (Nuñez, Anderton, Renslow 2018) for sizes, and a diverging one about zero for what has a sign. */
+/** Anchors of ramps: cividis (Nuñez, Anderton, Renslow 2018) for sizes, a diverging one about zero for what has a sign (blue grows, as in print), and
+ * one that closes the circle for angles (vikO of F. Crameri, every fourth colour of `crates/figure/src/cyclic.rs`). */
 const CIVIDIS = ["#00224e", "#2a3f6d", "#575d6d", "#7d7c78", "#a59c74", "#d2c060", "#fee838"];
-const ABOUT_ZERO = ["#053061", "#2f79b5", "#a7cfe4", "#f7f7f7", "#f6b394", "#c43c39", "#67001f"];
+const ABOUT_ZERO = ["#67001f", "#c43c39", "#f6b394", "#f7f7f7", "#a7cfe4", "#2f79b5", "#053061"];
+const CIRCLE = ["#4f1a3d", "#3f2c5b", "#334c80", "#4575a1", "#769fbc", "#b0bec8", "#d5beb3", "#d7a286", "#c47a55", "#a14b2c", "#7a251e", "#601628", "#4f1a3d"];
 
-/** What is undefined. */
+/** What is undefined, or hidden. */
 export const NOTHING: Colour = [255, 255, 255];
+/** What is undefined beside a ramp whose middle is nearly white. */
+const BESIDE_ZERO: Colour = [154, 154, 154];
 
 /** A colour of a style sheet. */
 export function parsed(hex: string): Colour {
@@ -29,6 +33,8 @@ function ramp(anchors: string[], part: number): Colour {
 /** How the values of a column are shown. */
 export interface Scale {
   colour(value: number): Colour;
+  /** The colour of what is undefined. */
+  nothing: Colour;
   /** Its classes; none of a column of numbers. */
   classes: Class[];
   /** The ends of a column of numbers. */
@@ -43,13 +49,16 @@ export function scale(column: Column, classes: Class[] | undefined, [low, high]:
       return found ?? { name, label: name.replaceAll("_", " "), fill: hex(ramp(CIVIDIS, place / Math.max(1, column.names.length - 1))) };
     });
     const fills = known.map((one): Colour => (hidden.includes(one.name) ? NOTHING : parsed(one.fill)));
-    return { colour: (value) => (Number.isNaN(value) ? NOTHING : (fills[value] ?? NOTHING)), classes: known, ends: [0, 0] };
+    return { colour: (value) => (Number.isNaN(value) ? NOTHING : (fills[value] ?? NOTHING)), nothing: NOTHING, classes: known, ends: [0, 0] };
   }
-  const both: [number, number] = column.signed ? [-Math.max(Math.abs(low), Math.abs(high)), Math.max(Math.abs(low), Math.abs(high))] : [low, high];
+  // An angle has the whole circle.
+  const circle = column.unit === "deg";
+  const both: [number, number] = circle ? [-180, 180] : column.signed ? [-Math.max(Math.abs(low), Math.abs(high)), Math.max(Math.abs(low), Math.abs(high))] : [low, high];
   const length = both[1] - both[0];
-  const anchors = column.signed ? ABOUT_ZERO : CIVIDIS;
-  const colour = (value: number) => (Number.isFinite(value) ? ramp(anchors, length > 0 ? (value - both[0]) / length : 0.5) : NOTHING);
-  return { colour, classes: [], ends: both };
+  const anchors = circle ? CIRCLE : column.signed ? ABOUT_ZERO : CIVIDIS;
+  const nothing = anchors === ABOUT_ZERO ? BESIDE_ZERO : NOTHING;
+  const colour = (value: number) => (Number.isFinite(value) ? ramp(anchors, length > 0 ? (value - both[0]) / length : 0.5) : nothing);
+  return { colour, nothing, classes: [], ends: both };
 }
 
 /** A colour as style sheets write it. */

@@ -4,7 +4,7 @@ import { hex, type Scale, words } from "./colours";
 import type { Class, Column } from "./sweep";
 
 /** Draws the legend of a column; `toggled` is told of a class that is to be shown or hidden. */
-export function legend(box: HTMLElement, column: Column, classes: Class[] | undefined, show: Scale | null, hidden: string[], toggled: (name: string) => void): void {
+export function legend(box: HTMLElement, column: Column, classes: Class[] | undefined, show: Scale | null, gaps: boolean, hidden: string[], toggled: (name: string) => void): void {
   if (column.names.length > 0) {
     const known = classes ?? column.names.map((name) => ({ name, label: name.replaceAll("_", " "), fill: "#888888" }));
     // The class that was chosen by a key keeps the focus.
@@ -34,4 +34,9 @@ export function legend(box: HTMLElement, column: Column, classes: Class[] | unde
   }
   box.replaceChildren(low, canvas, high);
   box.append(` ${column.print.replace(/[{}]/g, "")}`);
+  if (gaps && show) {
+    const swatch = Object.assign(document.createElement("span"), { className: "swatch" });
+    swatch.style.background = hex(show.nothing);
+    box.append(" ", swatch, " undefined");
+  }
 }

@@ -283,7 +283,9 @@ class Page {
     for (const fixed of this.about.fixed) {
       const value = Number(this.state.at[fixed.key] ?? fixed.value);
       const size = Math.abs(fixed.value) || (fixed.most !== null && fixed.least !== null ? fixed.most : 1);
-      const range: [number, number] = [Math.max(fixed.least ?? -Infinity, fixed.value === 0 ? -size : fixed.value - size), Math.min(fixed.most ?? Infinity, fixed.value + size)];
+      const low = Math.max(fixed.least ?? -Infinity, fixed.value === 0 ? -size : fixed.value - size);
+      // What has to be greater than the lower end begins a thousandth above it.
+      const range: [number, number] = [is_allowed(fixed, low) ? low : low + size / 1000, Math.min(fixed.most ?? Infinity, fixed.value + size)];
       add(fixed.key, `${symbol(fixed)} ${escape(fixed.unit)}`, fixed.meaning, value, range);
     }
   }
@@ -478,8 +480,13 @@ class Page {
     this.go({ ...this.state, rangeX: to(this.state.x, this.state.rangeX, x), rangeY: to(this.state.y, this.state.rangeY, y) });
   }
 
+  /** The values of what is shown at a place: those of the instance of a run, or of the place itself. */
+  private shownAt(place: [number, number]): [number, number] {
+    return this.first.view.instance(...place) ?? this.at(place);
+  }
+
   private read(place: [number, number]): void {
-    const [a, b] = this.at(place);
+    const [a, b] = this.shownAt(place);
     const [x, y] = [parameter(this.about, this.state.x), parameter(this.about, this.state.y)];
     const unit = (of: { unit: string } | undefined) => (of?.unit ? ` ${of.unit}` : "");
     element("readout").textContent = `${this.state.x} = ${shown(a, 5)}${unit(x)}, ${this.state.y} = ${shown(b, 5)}${unit(y)}: ${this.maps().map((side) => side.said(place)).join(", ")}`;
@@ -489,8 +496,8 @@ class Page {
 
   /** Looks into the cell at a place of the map. */
   pick(place: [number, number]): void {
-    const [a, b] = this.at(place);
-    this.go({ ...this.state, cell: [Number(a.toPrecision(6)), Number(b.toPrecision(6))] });
+    const rounded = this.at(place).map((value) => Number(value.toPrecision(6))) as [number, number];
+    this.go({ ...this.state, cell: this.first.view.instance(...place) ?? rounded });
   }
 
   private async look(): Promise<void> {

@@ -38,6 +38,8 @@ export class MapView {
   private pictureOf: State | null = null;
   private drawing = false;
   current: Scale | null = null;
+  /** Whether something that is shown is undefined. */
+  undefinedCells = false;
   private currentOf = "";
   /** Seconds until the first and the last picture of the last view. */
   times: { first: number; last: number } = { first: NaN, last: NaN };
@@ -182,13 +184,14 @@ export class MapView {
     const { width, height } = this.canvas;
     const column = this.column(state.quantity);
     let [low, high] = [Infinity, -Infinity];
+    this.undefinedCells = false;
     for (const level of this.levels) {
-      for (const value of level.values) {
+      level.values.forEach((value, place) => {
         if (Number.isFinite(value)) {
           if (value < low) low = value;
           if (value > high) high = value;
-        }
-      }
+        } else if (level.known[Math.floor(place / level.wide)]) this.undefinedCells = true;
+      });
     }
     // Until there are values the scale of the picture that is shown stays.
     const kept = this.current && this.currentOf === column.name ? this.current.ends : ([0, 1] as [number, number]);
@@ -230,16 +233,28 @@ export class MapView {
     this.canvas.dispatchEvent(new Event("painted"));
   }
 
-  /** The value at a place, as parts of both sides from the lower left; nothing where none is known. */
-  value(x: number, y: number): number | undefined {
+  /** The finest cell that is known at a place, as parts of both sides from the lower left: its level and its column and row there. */
+  private found(x: number, y: number): [Level, number, number] | undefined {
     for (const level of [...this.levels].reverse()) {
       const state = this.shownState;
       const part = (values: number[], [low, high]: [number, number], at: number) => nearest(values, [low + at * (high - low), low + at * (high - low)], 1)[0] ?? 0;
       const row = level.own && state ? part(level.own.y, state.rangeY, y) : Math.floor(y * level.high);
       const at = level.own && state ? part(level.own.x, state.rangeX, x) : Math.floor(x * level.wide);
-      if (row >= 0 && row < level.high && at >= 0 && at < level.wide && level.known[row]) return level.values[row * level.wide + at];
+      if (row >= 0 && row < level.high && at >= 0 && at < level.wide && level.known[row]) return [level, at, row];
     }
     return undefined;
+  }
+
+  /** The value at a place; nothing where none is known. */
+  value(x: number, y: number): number | undefined {
+    const [level, at, row] = this.found(x, y) ?? [undefined, 0, 0];
+    return level?.values[row * level.wide + at];
+  }
+
+  /** The instance of a run whose value is shown at a place; nothing where a cell of the view is. */
+  instance(x: number, y: number): [number, number] | undefined {
+    const [level, at, row] = this.found(x, y) ?? [undefined, 0, 0];
+    return level?.own && [level.own.x[at] as number, level.own.y[row] as number];
   }
 
   /** The finest level that is whole, for tests and pictures. */

@@ -72,7 +72,7 @@ export class Side {
   }
 
   private legend(): void {
-    if (this.state) legend(this.elements.legend, this.column(), this.classes[this.column().name], this.view.current, this.state.hidden, this.toggled);
+    if (this.state) legend(this.elements.legend, this.column(), this.classes[this.column().name], this.view.current, this.view.undefinedCells, this.state.hidden, this.toggled);
   }
 
   private draw(): void {

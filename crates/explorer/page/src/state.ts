@@ -215,7 +215,8 @@ export function read(about: About, hash: string): { state: State; wrong: string[
 
 /** Whether a parameter may have a value. */
 export function is_allowed(of: Parameter, value: number): boolean {
-  return Number.isFinite(value) && (of.least === null || value >= of.least) && (of.most === null || value <= of.most);
+  const beyond = (value: number, end: number) => (of.open ? value <= end : value < end);
+  return Number.isFinite(value) && (of.least === null || !beyond(value, of.least)) && (of.most === null || !beyond(-value, -of.most));
 }
 
 /** A range within what its parameter may be; nothing where it is none. */

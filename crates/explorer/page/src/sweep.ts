@@ -9,6 +9,8 @@ export interface Parameter {
   range: string;
   least: number | null;
   most: number | null;
+  /** Whether the ends themselves lie outside. */
+  open?: boolean;
 }
 
 /** A parameter that the sweep varies. */

@@ -133,6 +133,17 @@ test("a run is shown as it is, and what it has not is computed", async () => {
   const box = await (await page.$("#map")).boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   assert.match(await text("#readout"), /type = [a-z]/);
+  // Between two instances the values of the nearest are told, and a click looks into that one.
+  const [x, y] = [found.x[3], found.y[2]];
+  const near = (values, at) => (values[at] + 0.3 * (values[at + 1] - values[at]) - values[0]) / (values.at(-1) - values[0]);
+  const place = [near(found.x, 3), near(found.y, 2)];
+  await page.mouse.move(box.x + place[0] * box.width, box.y + (1 - place[1]) * box.height);
+  const told = (await text("#readout")).match(/= ([-0-9.e]+).*?= ([-0-9.e]+).*?: type = (.+)$/);
+  assert.deepEqual([Number(told[1]), Number(told[2])], [x, y].map((value) => Number(value.toPrecision(5))));
+  const instance = here.find((row) => Number(of(row, "mu_d")) === x && Number(of(row, "mu_s")) === y);
+  assert.equal(told[3].replaceAll(" ", "_"), of(instance, "type"));
+  await page.evaluate((place) => window.squealmap.page.pick(place), place);
+  assert.deepEqual(await page.evaluate(() => window.squealmap.state().cell), [x, y]);
   await page.evaluate(() => window.squealmap.page.zoom(0.5, [0.5, 0.5]));
   await whole(page);
   assert.match(await text("#source"), /^From the run of squealmap [^:]+: \d+ of [\d,]+ cells; the others are computed\.$/);

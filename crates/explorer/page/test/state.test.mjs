@@ -22,6 +22,13 @@ const about = {
 
 const TABLE = "# measured\nmu_s,mu_d,belt_velocity,mu_s_error,observed\n0.2,0.3,2.5,0.02,both\n0.4,0.1,1,,mode_coupling\n";
 
+test("an end that lies outside is told", () => {
+  const open = { ...about, fixed: [{ ...side("m1", [], 0, null), range: "greater than 0", open: true, value: 2, section: "model" }] };
+  assert.deepEqual(read(open, "#at.m1=1e-9").wrong, []);
+  assert.match(read(open, "#at.m1=0").wrong[0], /`m1` is 0, and has to be greater than 0/);
+  assert.deepEqual(read(about, "#at.theta=1.5").wrong, []);
+});
+
 test("an address gives its state again", () => {
   const state = { ...first(about), rangeX: [0.1, 0.2], rangeY: [0.25, 0.5], quantity: "growth_rate", at: { belt_velocity: 2.5, theta: 0.02 }, hidden: ["stable"], cell: [0.15, 0.3] };
   const { state: again, wrong } = read(about, written(state));
