@@ -99,7 +99,12 @@ pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Resul
         let mut pressing = pressing.iter();
         let wrong = pressed.iter().zip(&gaps).map(|(on, gap)| {
             let force = if *on { pressing.next() } else { None };
-            -force.map_or_else(|| gap / widest, |force| force / largest)
+            let gape = gap / widest;
+            force.map_or(-gape, |force| {
+                let pulled = -force / largest;
+                // Forces of a face that lies on its master in part have both signs, by a stiffness though it overlaps.
+                if now.penalty.is_some() { pulled.min(gape) } else { pulled }
+            })
         });
         let wrong: Vec<f64> = wrong.collect();
         let most = (0..wrong.len()).max_by(|a, b| wrong[*a].total_cmp(&wrong[*b]));

@@ -123,6 +123,15 @@ def test_modes_are_drawn_in_any_order_and_in_parts():
     assert pictures(found.sel(theta=0.05).squealmap.plot().svg) == one
     turned = pictures(swept(theta={"values": [0.05, 0.01, 0.0]}))
     assert pictures(found.isel(theta=[2, 1, 0]).squealmap.plot().svg) == turned
+    single = pictures(found.isel(theta=[1]).squealmap.plot().svg)
+    for other in [found.isel(theta=1, crossing=0), found.isel(theta=[1]).squeeze(), found.isel(theta=[1]).squeeze(drop=True)]:
+        if "theta" in other.coords:
+            assert pictures(other.squealmap.plot().svg) == single
+        else:
+            with pytest.raises(squealmap.InputError, match="the values of `theta`"):
+                other.squealmap.plot()
+    none = squealmap.modes({**sweep, "axes": {"mu_d": {"from": 0.0, "to": 0.1, "points": 4}}})
+    assert "<svg" in none.squealmap.plot().svg and "<svg" in none.drop_vars("critical").squealmap.plot().svg
     # Below all crossings, of a sweep without any too.
     below = pictures(swept(mu_d={"from": 0.0, "to": 0.12, "points": 4}))
     assert pictures(found.isel(mu_d=slice(0, 4)).squealmap.plot().svg) == below
@@ -133,11 +142,15 @@ def test_what_cannot_be_drawn_is_said_without_files():
     found = squealmap.linear(FIRST)
     trace = squealmap.trace(FIRST, instance=2)
     cases = [
-        (modes.isel(mode=0), "from the first one on"),
+        (modes.isel(mode=0), "with their dimension `mode`"),
+        (modes.isel(mode=[1, 0]), "in their order"),
+        (modes.rename(mu_s="q"), "the dimensions are q"),
+        (modes.drop_vars("mu_s"), "the values of `mu_s` are not there"),
+        (trace.drop_vars("t"), "the values of `t` are not there"),
         (modes.isel(mu_s=0, belt_velocity=[0]), "one value is left"),
         (found.stack(both=("mu_s", "belt_velocity")), "the dimensions are both"),
         (found.rename(mu_s="q"), "the dimensions are q"),
-        (found.drop_vars("mu_s"), "the values of the axis `mu_s` are not there"),
+        (found.drop_vars("mu_s"), "the values of `mu_s` are not there"),
         (trace[["x2"]], "its `state`"),
     ]
     for part, words in cases:

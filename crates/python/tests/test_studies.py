@@ -210,7 +210,7 @@ def test_fem(tmp_path, program):
     drawn = found.squealmap.plot().svg
     assert pictures(drawn) == pictures((tmp_path / "fem.svg").read_text())
     assert pictures(found.transpose().sortby("mu", ascending=False).squealmap.plot().svg) == pictures(drawn)
-    with pytest.raises(squealmap.InputError, match="select with lists"):
+    with pytest.raises(squealmap.InputError, match="two values are needed"):
         found.isel(mu=0).squealmap.plot()
 
 

@@ -125,6 +125,7 @@ pub(crate) fn draw(
     for level in &levels {
         plot.curve(svg, [(0.0, *level), (1.0, *level)], LEVEL);
     }
+    values(svg, &frame, &scale, &levels);
     if field.has_sign() && (0.0..=1.0).contains(&scale.position(0.0)) {
         plot.curve(svg, [(0.0, 0.0), (1.0, 0.0)], ZERO);
     }
@@ -134,15 +135,6 @@ pub(crate) fn draw(
         starts_block::curves(svg, &plot, panels, field.basins(), same_class(panels));
     }
     open_marks(svg, &plot, doubtful, FIRST);
-    // Each line has its value at its right end, in the notation of the axis.
-    let unit = 10_f64.powi(scale.exponent());
-    for level in levels {
-        let label = value_label(level / unit);
-        let (right, up) = (frame.x + frame.width - 2.0, frame.up(scale.position(level)));
-        let wide = label.width(TICK_SIZE, false);
-        svg.rect([right - wide - 1.0, up - 0.5 * TICK_SIZE, wide + 2.0, TICK_SIZE], PLATE);
-        svg.text(right, up + 0.36 * TICK_SIZE, &label, Style::new(TICK_SIZE, Anchor::End));
-    }
     frame.border(svg);
     let x_ticks = panels.x.ticks(frame.width, Direction::Horizontal, TICK_SIZE);
     frame.x_ticks(svg, &x_ticks, true);
@@ -163,4 +155,24 @@ pub(crate) fn draw(
     let label = panels.x.label(frame.width, LABEL_SIZE);
     svg.text(frame.across(0.5), base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
     base + 3.0 - y
+}
+
+/// The value of each line at its right end, with the power of ten of the axis; below the curve, and none upon another.
+fn values(svg: &mut Svg, frame: &Frame, scale: &Scale, levels: &[f64]) {
+    let unit = 10_f64.powi(scale.exponent());
+    let right = frame.x + frame.width - 2.0;
+    let mut last = f64::INFINITY;
+    let mut rising = levels.to_vec();
+    rising.sort_by(f64::total_cmp);
+    for level in rising {
+        let up = frame.up(scale.position(level));
+        if last - up < TICK_SIZE {
+            continue;
+        }
+        last = up;
+        let label = value_label(level / unit);
+        let wide = label.width(TICK_SIZE, false);
+        svg.rect([right - wide - 1.0, up - 0.5 * TICK_SIZE, wide + 2.0, TICK_SIZE], PLATE);
+        svg.text(right, up + 0.36 * TICK_SIZE, &label, Style::new(TICK_SIZE, Anchor::End));
+    }
 }

@@ -98,6 +98,7 @@ fn column(column: &Column) -> Json {
         "meaning": column.meaning,
         "print": column.print[0],
         "signed": column.reading == Reading::Sign,
+        "circle": column.unit == "deg" && column.reading == Reading::Linear,
         "response": column.window != Window::Not || !matches!(column.group, Group::Linear | Group::Always),
         "names": names(column),
     })

@@ -5,10 +5,10 @@ import { type Class, type Column, shown } from "./sweep";
 /** Red, green, blue, each from 0 to 255. */
 export type Colour = [number, number, number];
 
-/** Anchors of ramps: cividis (Nuñez, Anderton, Renslow 2018) for sizes, a diverging one about zero for what has a sign (blue grows, as in print), and
+/** Anchors of ramps: cividis (Nuñez, Anderton, Renslow 2018) for sizes, a diverging one about zero for what has a sign (blue grows and ochre decays, as in print), and
  * one that closes the circle for angles (vikO of F. Crameri, every fourth colour of `crates/figure/src/cyclic.rs`). */
 const CIVIDIS = ["#00224e", "#2a3f6d", "#575d6d", "#7d7c78", "#a59c74", "#d2c060", "#fee838"];
-const ABOUT_ZERO = ["#67001f", "#c43c39", "#f6b394", "#f7f7f7", "#a7cfe4", "#2f79b5", "#053061"];
+const ABOUT_ZERO = ["#d8a83c", "#f3d691", "#faead0", "#f7f7f7", "#a7cfe4", "#2f79b5", "#053061"];
 const CIRCLE = ["#4f1a3d", "#3f2c5b", "#334c80", "#4575a1", "#769fbc", "#b0bec8", "#d5beb3", "#d7a286", "#c47a55", "#a14b2c", "#7a251e", "#601628", "#4f1a3d"];
 
 /** What is undefined, or hidden. */
@@ -52,7 +52,7 @@ export function scale(column: Column, classes: Class[] | undefined, [low, high]:
     return { colour: (value) => (Number.isNaN(value) ? NOTHING : (fills[value] ?? NOTHING)), nothing: NOTHING, classes: known, ends: [0, 0] };
   }
   // An angle has the whole circle.
-  const circle = column.unit === "deg";
+  const circle = column.circle === true;
   const both: [number, number] = circle ? [-180, 180] : column.signed ? [-Math.max(Math.abs(low), Math.abs(high)), Math.max(Math.abs(low), Math.abs(high))] : [low, high];
   const length = both[1] - both[0];
   const anchors = circle ? CIRCLE : column.signed ? ABOUT_ZERO : CIVIDIS;

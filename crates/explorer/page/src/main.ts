@@ -284,8 +284,9 @@ class Page {
       const value = Number(this.state.at[fixed.key] ?? fixed.value);
       const size = Math.abs(fixed.value) || (fixed.most !== null && fixed.least !== null ? fixed.most : 1);
       const low = Math.max(fixed.least ?? -Infinity, fixed.value === 0 ? -size : fixed.value - size);
-      // What has to be greater than the lower end begins a thousandth above it.
-      const range: [number, number] = [is_allowed(fixed, low) ? low : low + size / 1000, Math.min(fixed.most ?? Infinity, fixed.value + size)];
+      const high = Math.min(fixed.most ?? Infinity, fixed.value + size);
+      // An end that lies outside is a thousandth away.
+      const range: [number, number] = [is_allowed(fixed, low) ? low : low + size / 1000, is_allowed(fixed, high) ? high : high - size / 1000];
       add(fixed.key, `${symbol(fixed)} ${escape(fixed.unit)}`, fixed.meaning, value, range);
     }
   }
@@ -480,13 +481,14 @@ class Page {
     this.go({ ...this.state, rangeX: to(this.state.x, this.state.rangeX, x), rangeY: to(this.state.y, this.state.rangeY, y) });
   }
 
-  /** The values of what is shown at a place: those of the instance of a run, or of the place itself. */
-  private shownAt(place: [number, number]): [number, number] {
-    return this.first.view.instance(...place) ?? this.at(place);
+  /** The instance of a run that every map shows at a place; nothing where one shows a cell of the view. */
+  private instance(place: [number, number]): [number, number] | undefined {
+    const [first, ...others] = this.maps().map((side) => side.view.instance(...place));
+    return others.every((other) => other?.join() === first?.join()) ? first : undefined;
   }
 
   private read(place: [number, number]): void {
-    const [a, b] = this.shownAt(place);
+    const [a, b] = this.instance(place) ?? this.at(place);
     const [x, y] = [parameter(this.about, this.state.x), parameter(this.about, this.state.y)];
     const unit = (of: { unit: string } | undefined) => (of?.unit ? ` ${of.unit}` : "");
     element("readout").textContent = `${this.state.x} = ${shown(a, 5)}${unit(x)}, ${this.state.y} = ${shown(b, 5)}${unit(y)}: ${this.maps().map((side) => side.said(place)).join(", ")}`;
@@ -497,7 +499,7 @@ class Page {
   /** Looks into the cell at a place of the map. */
   pick(place: [number, number]): void {
     const rounded = this.at(place).map((value) => Number(value.toPrecision(6))) as [number, number];
-    this.go({ ...this.state, cell: this.first.view.instance(...place) ?? rounded });
+    this.go({ ...this.state, cell: this.instance(place) ?? rounded });
   }
 
   private async look(): Promise<void> {

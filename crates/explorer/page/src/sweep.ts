@@ -33,6 +33,8 @@ export interface Column {
   meaning: string;
   print: string;
   signed: boolean;
+  /** Whether its values are angles of a whole turn, degrees. */
+  circle?: boolean;
   response: boolean;
   names: string[];
 }

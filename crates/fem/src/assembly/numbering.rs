@@ -207,7 +207,8 @@ fn follow(
     let axis = (0..3).rev().max_by(most).unwrap_or(0);
     let dof = slave + axis;
     let Some(own) = moves.remove(&dof).filter(|own| fate[dof].is_none() && own.abs() > NOTHING) else {
-        return Err(given(axis));
+        let along = |a: &usize, b: &usize| point.normal[*a].abs().total_cmp(&point.normal[*b].abs());
+        return Err(given((0..3).max_by(along).unwrap_or(0)));
     };
     for (master, weight) in &point.masters {
         for axis in 0..3 {

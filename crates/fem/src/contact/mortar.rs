@@ -61,11 +61,8 @@ pub fn mortar(
     let mut g: Entries = BTreeMap::new();
     let rule = triangle_rule();
     for slave in &slaves {
-        for master in masters.iter().filter(|m| slave.near(m)) {
-            let overlap = clip(&slave.corners, &master.corners);
-            for i in 1..overlap.len().saturating_sub(1) {
-                integrate([slave, master], [overlap[0], overlap[i], overlap[i + 1]], &rule, &mut d, &mut g);
-            }
+        for (master, corners) in overlaps(slave, &masters) {
+            integrate([slave, master], corners, &rule, &mut d, &mut g);
         }
     }
     weights(&d, &g).map(|rows| {
@@ -86,19 +83,14 @@ pub fn overhangs(mesh: &Mesh, slaves: &[FaceRef], masters: &[FaceRef], normal: [
     for face in mesh.resolve(slaves) {
         let slave = flat(&face);
         let (mut places, mut shared) = (Vec::new(), 0.0);
-        for master in masters.iter().filter(|master| slave.near(master)) {
-            let overlap = clip(&slave.corners, &master.corners);
-            for i in 1..overlap.len().saturating_sub(1) {
-                let corners = [overlap[0], overlap[i], overlap[i + 1]];
-                let twice = 2.0 * area(&corners);
-                shared += 0.5 * twice;
-                let part = |([u, v], weight): &(Plane, f64)| {
-                    let [a, b, c] = corners;
-                    let place = [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]));
-                    (slave.local(place), weight * twice)
-                };
-                places.extend(rule.iter().map(part));
-            }
+        for (_, [a, b, c]) in overlaps(&slave, &masters) {
+            let twice = 2.0 * area(&[a, b, c]);
+            shared += 0.5 * twice;
+            let part = |([u, v], weight): &(Plane, f64)| {
+                let place = [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]));
+                (slave.local(place), weight * twice)
+            };
+            places.extend(rule.iter().map(part));
         }
         if shared < (1.0 - ROUNDING) * area(&slave.corners) {
             found.insert(face.of, places);
@@ -136,7 +128,7 @@ pub(super) fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
 /// D⁻¹ G, row by row.
 fn weights(d: &Entries, g: &Entries) -> Result<Vec<Weighted>, Error> {
     /// A slave node that shares less than this part of the largest area only touches the other surface's edge.
-    const TOUCHES: f64 = 1e-6;
+    const TOUCHES: f64 = 1e-9;
     /// Weights below this are what rounding makes of zero.
     const ZERO: f64 = 1e-13;
     let largest = d.iter().filter(|((a, b), _)| a == b).map(|(_, v)| *v).fold(0.0, f64::max);
@@ -278,6 +270,23 @@ fn clip(polygon: &[Plane], window: &[Plane]) -> Vec<Plane> {
         kept = next;
     }
     kept
+}
+
+/// The triangles that a slave face shares with each master; none where that is next to nothing of it: nodes that press on a sliver alone would be
+/// known by rounding.
+fn overlaps<'a>(slave: &Flat, masters: &'a [Flat]) -> Vec<(&'a Flat, [Plane; 3])> {
+    /// That part of the face.
+    const SLIVER: f64 = 5e-3;
+    let (mut found, mut shared) = (Vec::new(), 0.0);
+    for master in masters.iter().filter(|master| slave.near(master)) {
+        let overlap = clip(&slave.corners, &master.corners);
+        for i in 1..overlap.len().saturating_sub(1) {
+            let corners = [overlap[0], overlap[i], overlap[i + 1]];
+            shared += area(&corners);
+            found.push((master, corners));
+        }
+    }
+    if shared < SLIVER * area(&slave.corners) { Vec::new() } else { found }
 }
 
 /// Adds the integrals over one triangle of an overlap.

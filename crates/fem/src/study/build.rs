@@ -76,15 +76,23 @@ impl Study {
             ));
         }
         let (mut faces, mut matching) = (Vec::new(), Vec::new());
+        let mut whole = HashSet::new();
         for (i, pair) in document.sliding.iter().enumerate() {
             let key = format!("sliding[{i}]");
             let slid = slide(&model.mesh, &key, pair)?;
             check_edges(&model.contact, &slid.points, &key)?;
             model.contact.extend(slid.points);
-            model.partly.extend(slid.partly);
+            whole.extend(slid.slaves.iter().filter(|face| !slid.partly.contains_key(face)).copied());
+            // A face may lie on the masters of several pairs.
+            for (face, places) in slid.partly {
+                model.partly.entry(face).or_default().extend(places);
+            }
             faces.extend(slid.slaves);
             matching.push(slid.matches);
         }
+        model.partly.retain(|face, _| !whole.contains(face));
+        let mut known = HashSet::new();
+        faces.retain(|face| known.insert(*face));
         if let Some(stiffness) = document.friction.contact_stiffness {
             model.penalty = Some(Penalty { stiffness, faces: faces.clone() });
         }
@@ -214,7 +222,6 @@ fn tie(mesh: &Mesh, supports: &mut Supports, key: &str, bond: &Bond) -> Result<(
     Ok(())
 }
 
-/// Points of contact, faces of the slaves, whether nodes match.
 /// One pair of surfaces that slide.
 struct Slid {
     points: Vec<Point>,

@@ -29,7 +29,7 @@ struct Grid {
 
 impl Search<'_> {
     /// The turns between two neighbouring values of μ, the first of them number `step`. Modes that grow at one of both are followed to the other: numbers may
-    /// be exchanged where modes come near each other.
+    /// be exchanged where modes come near each other. Where no number changes from decay to growth or back, nothing is looked for.
     pub(super) fn turns(
         &self,
         basis: &Basis,
@@ -82,7 +82,7 @@ impl Search<'_> {
         Ok(Followed::Grows)
     }
 
-    /// Where a mode turns between a value of μ where it decays and one where it grows, by bisection to rounding. It is followed by its shape: other modes
+    /// Where a mode turns between a value of μ where it decays and one where it grows, by bisection to rounding on the projected problem. It is followed by its shape: other modes
     /// that grow may be near.
     fn turn(
         &self,

@@ -6,6 +6,8 @@ use squealmap_fem::elements::Kind;
 use squealmap_fem::mesh::Block;
 use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, pairs, refine};
 use squealmap_fem::statics::settle;
+use squealmap_fem::study::document::Document;
+use squealmap_fem::study::{Study, compute};
 
 use crate::cases::{pin, steel};
 
@@ -68,10 +70,12 @@ fn a_high_stiffness_comes_to_multipliers() {
 #[test]
 fn what_hangs_over_does_not_press() {
     let stiffness = 1e9;
-    let block = |origin, size, cells: [usize; 3]| {
-        Block { origin, size, cells: cells.map(Into::into), kind: Kind::Hex8 }.mesh().expect("a block")
-    };
-    for cells in [1, 3, 4, 8] {
+    for (kind, cells) in
+        [(Kind::Hex8, 1), (Kind::Hex8, 3), (Kind::Hex8, 4), (Kind::Hex8, 8), (Kind::Hex20, 3)]
+    {
+        let block = |origin, size, cells: [usize; 3]| {
+            Block { origin, size, cells: cells.map(Into::into), kind }.mesh().expect("a block")
+        };
         let mut model = Model { materials: vec![steel()], ..Model::default() };
         model.mesh = block([0.0, 0.0, -0.01], [0.01, 0.01, 0.01], [2, 2, 1]);
         model.mesh.add(block([-0.005, 0.0, 0.0], [0.02, 0.01, 0.01], [cells, 1, 1]), "pad.", 0);
@@ -97,5 +101,77 @@ fn what_hangs_over_does_not_press() {
         let sinks = -pad.iter().map(|node| settled.displacement[*node][2]).sum::<f64>() / pad.len() as f64;
         let exact = 10.0 / (stiffness * 1e-4);
         assert!((sinks / exact - 1.0).abs() < 1e-3, "{cells}: {sinks} {exact}");
+    }
+}
+
+/// A pad on two rails, whose faces lie on one of them each, or between both.
+fn pad_on_rails(friction: &str, gap: f64) -> Vec<f64> {
+    let text = format!(
+        r#"
+        [parts.pad]
+        kind = "block"
+        element = "hex20"
+        origin = [0.0, 0.0, 0.0]
+        size = [0.05, 0.01, 0.01]
+        cells = [5, 1, 1]
+        material = "a"
+        [parts.l]
+        kind = "block"
+        element = "hex8"
+        origin = [0.0, 0.0, -0.01]
+        size = [{}, 0.01, 0.01]
+        cells = [2, 2, 1]
+        material = "a"
+        [parts.r]
+        kind = "block"
+        element = "hex8"
+        origin = [0.04, 0.0, -0.01]
+        size = [0.01, 0.01, 0.01]
+        cells = [2, 2, 1]
+        material = "a"
+        [materials.a]
+        young = 70e9
+        poisson = 0.3
+        density = 2700.0
+        [[supports]]
+        set = "pad.z1"
+        axes = "xy"
+        [[supports]]
+        set = "l.z0"
+        axes = "xyz"
+        [[supports]]
+        set = "r.z0"
+        axes = "xyz"
+        [[sliding]]
+        slaves = "pad.z0"
+        masters = "l.z1"
+        direction = [1.0, 0.0, 0.0]
+        [[sliding]]
+        slaves = "pad.z0"
+        masters = "r.z1"
+        direction = [1.0, 0.0, 0.0]
+        [friction]
+        mu = {{ values = [0.0] }}
+        {friction}
+        [modes]
+        count = 4
+        "#,
+        0.01 + gap
+    );
+    let study = Study::new(Document::read(&text).expect("a description"), &|path| Err(path.to_owned()));
+    let found = compute(&study.expect("a study"), &mut |_| {}).expect("modes");
+    found.real[..4].to_vec()
+}
+
+/// A face that lies on the masters of one of two pairs presses there, and a high stiffness comes to multipliers; a rail that reaches a five-hundredth into the
+/// next face changes next to nothing.
+#[test]
+fn faces_of_two_pairs_press_where_they_lie() {
+    let tied = pad_on_rails("", 0.0);
+    for (a, b) in tied.iter().zip(pad_on_rails("contact_stiffness = 1e17", 0.0)) {
+        assert!((a / b - 1.0).abs() < 1e-2, "{a} {b}");
+    }
+    for (a, b) in tied.iter().zip(pad_on_rails("", 2e-5)) {
+        assert!((a / b - 1.0).abs() < 5e-3, "{a} {b}");
     }
 }
