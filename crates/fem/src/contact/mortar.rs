@@ -86,10 +86,8 @@ pub fn overhangs(mesh: &Mesh, slaves: &[FaceRef], masters: &[FaceRef], normal: [
         for (_, [a, b, c]) in overlaps(&slave, &masters) {
             let twice = 2.0 * area(&[a, b, c]);
             shared += 0.5 * twice;
-            let part = |([u, v], weight): &(Plane, f64)| {
-                let place = [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]));
-                (slave.local(place), weight * twice)
-            };
+            let part =
+                |([u, v], weight): &(Plane, f64)| (slave.local(inside([a, b, c], [*u, *v])), weight * twice);
             places.extend(rule.iter().map(part));
         }
         if shared < (1.0 - ROUNDING) * area(&slave.corners) {
@@ -289,6 +287,11 @@ fn overlaps<'a>(slave: &Flat, masters: &'a [Flat]) -> Vec<(&'a Flat, [Plane; 3])
     if shared < SLIVER * area(&slave.corners) { Vec::new() } else { found }
 }
 
+/// A place in a triangle by its coordinates in the reference one.
+fn inside([a, b, c]: [Plane; 3], [u, v]: Plane) -> Plane {
+    [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]))
+}
+
 /// Adds the integrals over one triangle of an overlap.
 fn integrate(
     [slave, master]: [&Flat; 2],
@@ -302,7 +305,7 @@ fn integrate(
         return;
     }
     for ([u, v], weight) in rule {
-        let place = [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]));
+        let place = inside([a, b, c], [*u, *v]);
         let (own, other) = (slave.shape_at(place), master.shape_at(place));
         for (node, n) in slave.nodes.iter().zip(&own) {
             for (with, m) in slave.nodes.iter().zip(&own) {

@@ -2,13 +2,9 @@
 //! from finite elements of another author, in numpy: bisection between eigenvalues of the whole problem.
 
 use squealmap_fem::study::document::Document;
-use squealmap_fem::study::{Event, Outcome, Study, compute};
+use squealmap_fem::study::{Event, Outcome, Study};
 
-fn outcome(text: &str) -> Outcome {
-    let study =
-        Study::new(Document::read(text).expect("a description"), &|path| Err(format!("{path} is no file")));
-    compute(&study.expect("a study"), &mut |_| {}).expect("modes")
-}
+use crate::cases::outcome;
 
 /// μ and Hz of each coalescence; nothing else happens.
 fn met(outcome: &Outcome) -> Vec<[f64; 2]> {

@@ -6,10 +6,8 @@ use squealmap_fem::elements::Kind;
 use squealmap_fem::mesh::Block;
 use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, pairs, refine};
 use squealmap_fem::statics::settle;
-use squealmap_fem::study::document::Document;
-use squealmap_fem::study::{Study, compute};
 
-use crate::cases::{pin, steel};
+use crate::cases::{outcome, pin, steel};
 
 /// A block under pressure p sinks by p/k into a plane of contact stiffness k, and its forces sum to the load.
 #[test]
@@ -158,9 +156,7 @@ fn pad_on_rails(friction: &str, gap: f64) -> Vec<f64> {
         "#,
         0.01 + gap
     );
-    let study = Study::new(Document::read(&text).expect("a description"), &|path| Err(path.to_owned()));
-    let found = compute(&study.expect("a study"), &mut |_| {}).expect("modes");
-    found.real[..4].to_vec()
+    outcome(&text).real[..4].to_vec()
 }
 
 /// A face that lies on the masters of one of two pairs presses there, and a high stiffness comes to multipliers; a rail that reaches a five-hundredth into the

@@ -1,13 +1,8 @@
 //! Modes that damp: where they turn to growth is where the eigenvalue crosses, whatever values of μ are taken, and rounding is no growth.
 
-use squealmap_fem::study::document::Document;
-use squealmap_fem::study::{Event, Outcome, Study, compute};
+use squealmap_fem::study::Event;
 
-fn outcome(text: &str) -> Outcome {
-    let study =
-        Study::new(Document::read(text).expect("a description"), &|path| Err(format!("{path} is no file")));
-    compute(&study.expect("a study"), &mut |_| {}).expect("modes")
-}
+use crate::cases::outcome;
 
 /// Two blocks of tetrahedra; the upper one damps.
 fn blocks(values: &str) -> String {

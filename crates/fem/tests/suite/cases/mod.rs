@@ -7,8 +7,17 @@ pub(crate) mod pin;
 pub(crate) mod plane_waves;
 
 use squealmap_fem::material::Material;
+use squealmap_fem::study::document::Document;
+use squealmap_fem::study::{Outcome, Study, compute};
 
 /// E = 210 GPa, ν = 0.3, ρ = 7800 kg/m³.
 pub(crate) fn steel() -> Material {
     Material::isotropic("steel", 210e9, 0.3, 7800.0).expect("the constants of steel")
+}
+
+/// What a description without files computes.
+pub(crate) fn outcome(text: &str) -> Outcome {
+    let study =
+        Study::new(Document::read(text).expect("a description"), &|path| Err(format!("{path} is no file")));
+    compute(&study.expect("a study"), &mut |_| {}).expect("modes")
 }
