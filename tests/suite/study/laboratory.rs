@@ -139,15 +139,6 @@ fn structure(random: &mut Random, law: FrictionLaw, [first, last]: [f64; 2], dur
     instance(law, &values)
 }
 
-/// Damping ratios along and across the contact.
-fn damping_ratios(instance: &Instance) -> [f64; 2] {
-    let value = |param: Param| instance.params.require(param);
-    let normal = value(Param::M1);
-    let masses = [value(Param::M2) + normal, normal];
-    let of = |damper: f64, stiffness: f64, mass: f64| damper / (2.0 * (stiffness * mass).sqrt());
-    [of(value(Param::C1), value(Param::K1), masses[0]), of(value(Param::C2), value(Param::K2), masses[1])]
-}
-
 /// The friction coefficient from which on a flat law is unstable.
 pub(crate) fn coalescence(instance: &Instance) -> f64 {
     let (mut low, mut high) = (0.0, 2.0);
@@ -236,9 +227,9 @@ pub(crate) fn stroke(drawn: Drawn, rate: f64, random: &mut Random) -> Stroke {
         if drawn == Drawn::Driven {
             drive(&mut signals.samples, random);
         }
-        let ratio = damping_ratios(&instance).into_iter().fold(0.0, f64::max);
-        let damping_ratio = if ratio <= DAMPING[1] { DAMPING[1] } else { DAMPING[2] };
-        let critical = coalescence(&instance);
+        let rig = exact(&instance, false);
+        let damping_ratio = if rig.damping_ratio() <= DAMPING[1] { DAMPING[1] } else { DAMPING[2] };
+        let critical = rig.critical[0].value;
         return Stroke { critical, damping_ratio, instance, samples: signals.samples, duration };
     }
 }
@@ -297,24 +288,32 @@ pub(crate) fn sensed(samples: &mut [Sample], slow: bool, decibel: f64, backwards
     }
 }
 
-/// What a laboratory knows of a structure: masses to a per cent, frequencies to a quarter of one, damping and inclination to a tenth. A
-/// stroke that `sensed` has turned around was made by a rig with the inclination of one that goes backwards.
-pub(crate) fn known(instance: &Instance, backwards: bool, random: &mut Random) -> Rig {
+/// The rig of a structure, its coalescence known to 3 %. A stroke that `sensed` has turned around was made by a rig with the inclination of one that
+/// goes backwards.
+pub(crate) fn exact(instance: &Instance, backwards: bool) -> Rig {
     let value = |param: Param| instance.params.require(param);
+    let [m1, m2, k1, k2] = [Param::M1, Param::M2, Param::K1, Param::K2].map(value);
+    let [c1, c2] = [Param::C1, Param::C2].map(value);
+    let theta = if backwards { -1.0 } else { 1.0 } * value(Param::Theta);
+    let critical = coalescence(instance);
+    let critical = [Measured { value: critical, error: 0.03 * critical }; 2];
+    Rig { m1, m2, k1, k2, c1, c2, theta, load: value(Param::FExt), critical }
+}
+
+/// What a laboratory knows of a structure: masses to a per cent, frequencies to a quarter of one, damping and inclination to a tenth.
+pub(crate) fn known(instance: &Instance, backwards: bool, random: &mut Random) -> Rig {
     let [mass, square, damping, inclination] =
         [0.01, 0.005, 0.1, 0.1].map(|error| (error * random.normal()).exp());
-    let theta = inclination * if backwards { -1.0 } else { 1.0 } * value(Param::Theta);
-    let critical = coalescence(instance);
+    let rig = exact(instance, backwards);
     Rig {
-        m1: mass * value(Param::M1),
-        m2: mass * value(Param::M2),
-        k1: mass * square * value(Param::K1),
-        k2: mass / square * value(Param::K2),
-        c1: damping * value(Param::C1),
-        c2: damping * value(Param::C2),
-        theta,
-        load: value(Param::FExt),
-        critical: [Measured { value: critical, error: 0.03 * critical }; 2],
+        m1: mass * rig.m1,
+        m2: mass * rig.m2,
+        k1: mass * square * rig.k1,
+        k2: mass / square * rig.k2,
+        c1: damping * rig.c1,
+        c2: damping * rig.c2,
+        theta: inclination * rig.theta,
+        ..rig
     }
 }
 

@@ -7,18 +7,15 @@ use std::sync::Arc;
 
 use crate::common::{near, plan};
 use crate::study::confusion::{TOLERANCE, is_right};
-use crate::study::laboratory::{Stroke, coalescence, right, sensed};
+use crate::study::laboratory::{Stroke, coalescence, exact, right, sensed};
 use crate::study::segments::{LENGTH, couples, describe, rig};
 use crate::study::strokes::{Random, csv, run};
-use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::motion::{Motion, MotionTable};
 use squealmap::study::signals::filter::recorded;
 use squealmap::study::signals::sensors::{Recording, Sample};
-use squealmap_identify::{
-    Fault, FrictionReading, Identification, Kind, Measured, Rig, Segment, Settings, Witness,
-};
+use squealmap_identify::{Fault, FrictionReading, Identification, Kind, Rig, Segment, Settings, Witness};
 
 /// Samples per second, Hz: 27 per period.
 const RATE: f64 = 400e3;
@@ -42,23 +39,9 @@ fn noisy(samples: &[Sample], decibel: f64, backwards: bool, seed: u64) -> Vec<u8
 
 /// What is known of the rig of a stroke: everything, its masses times `mass`, its stiffnesses along and across times `along` and `across`.
 fn known(instance: &Instance, backwards: bool, [mass, along, across]: [f64; 3]) -> Settings {
-    let value = |param: Param| instance.params.require(param);
-    let critical = coalescence(instance);
-    let critical = [Measured { value: critical, error: 0.03 * critical }; 2];
-    let theta = if backwards { -1.0 } else { 1.0 } * value(Param::Theta);
-    let [m1, m2, k1, k2] = [Param::M1, Param::M2, Param::K1, Param::K2].map(value);
-    let [c1, c2] = [Param::C1, Param::C2].map(value);
-    let rig = Rig {
-        m1: mass * m1,
-        m2: mass * m2,
-        k1: along * k1,
-        k2: mass * across * k2,
-        c1,
-        c2,
-        theta,
-        load: value(Param::FExt),
-        critical,
-    };
+    let rig = exact(instance, backwards);
+    let rig =
+        Rig { m1: mass * rig.m1, m2: mass * rig.m2, k1: along * rig.k1, k2: mass * across * rig.k2, ..rig };
     let (damping_ratio, inclination) = (rig.damping_ratio(), rig.theta.abs());
     Settings { damping_ratio, inclination, rig: Some(rig), ..Settings::default() }
 }

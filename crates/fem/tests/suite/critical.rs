@@ -4,7 +4,7 @@
 use squealmap_fem::study::document::Document;
 use squealmap_fem::study::{Event, Outcome, Study};
 
-use crate::cases::outcome;
+use crate::cases::{block, outcome, slides, support};
 
 /// μ and Hz of each coalescence; nothing else happens.
 fn met(outcome: &Outcome) -> Vec<[f64; 2]> {
@@ -18,22 +18,17 @@ fn met(outcome: &Outcome) -> Vec<[f64; 2]> {
 
 /// Two blocks of two bricks and three, clamped at their ends.
 fn blocks(values: &str, count: usize) -> String {
+    let bodies = [
+        block("u", "hex20", [[0.01, 0.0, 0.0], [0.009, 0.009, 0.02]], [1, 1, 2], "a"),
+        block("l", "hex20", [[0.001, 0.0, -0.008], [0.027, 0.009, 0.008]], [3, 1, 1], "b"),
+        support("u.z1", "xyz"),
+        support("l.z0", "xyz"),
+        slides("u.z0", "l.z1", [1.0, 0.0, 0.0]),
+    ]
+    .concat();
     format!(
-        r#"
-        [parts.u]
-        kind = "block"
-        element = "hex20"
-        origin = [0.01, 0.0, 0.0]
-        size = [0.009, 0.009, 0.02]
-        cells = [1, 1, 2]
-        material = "a"
-        [parts.l]
-        kind = "block"
-        element = "hex20"
-        origin = [0.001, 0.0, -0.008]
-        size = [0.027, 0.009, 0.008]
-        cells = [3, 1, 1]
-        material = "b"
+        r"
+        {bodies}
         [materials.a]
         young = 6.5e9
         poisson = 0.2
@@ -42,21 +37,11 @@ fn blocks(values: &str, count: usize) -> String {
         young = 70e9
         poisson = 0.3
         density = 2700.0
-        [[supports]]
-        set = "u.z1"
-        axes = "xyz"
-        [[supports]]
-        set = "l.z0"
-        axes = "xyz"
-        [[sliding]]
-        slaves = "u.z0"
-        masters = "l.z1"
-        direction = [1.0, 0.0, 0.0]
         [friction]
         mu = {{ {values} }}
         [modes]
         count = {count}
-        "#
+        "
     )
 }
 

@@ -7,7 +7,7 @@ use squealmap_fem::mesh::Block;
 use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, pairs, refine};
 use squealmap_fem::statics::settle;
 
-use crate::cases::{outcome, pin, steel};
+use crate::cases::{block, outcome, pin, slides, steel, support};
 
 /// A block under pressure p sinks by p/k into a plane of contact stiffness k, and its forces sum to the load.
 #[test]
@@ -104,57 +104,31 @@ fn what_hangs_over_does_not_press() {
 
 /// A pad on two rails, whose faces lie on one of them each, or between both.
 fn pad_on_rails(friction: &str, gap: f64) -> Vec<f64> {
+    let along = [1.0, 0.0, 0.0];
+    let bodies = [
+        block("pad", "hex20", [[0.0; 3], [0.05, 0.01, 0.01]], [5, 1, 1], "a"),
+        block("l", "hex8", [[0.0, 0.0, -0.01], [0.01 + gap, 0.01, 0.01]], [2, 2, 1], "a"),
+        block("r", "hex8", [[0.04, 0.0, -0.01], [0.01, 0.01, 0.01]], [2, 2, 1], "a"),
+        support("pad.z1", "xy"),
+        support("l.z0", "xyz"),
+        support("r.z0", "xyz"),
+        slides("pad.z0", "l.z1", along),
+        slides("pad.z0", "r.z1", along),
+    ]
+    .concat();
     let text = format!(
-        r#"
-        [parts.pad]
-        kind = "block"
-        element = "hex20"
-        origin = [0.0, 0.0, 0.0]
-        size = [0.05, 0.01, 0.01]
-        cells = [5, 1, 1]
-        material = "a"
-        [parts.l]
-        kind = "block"
-        element = "hex8"
-        origin = [0.0, 0.0, -0.01]
-        size = [{}, 0.01, 0.01]
-        cells = [2, 2, 1]
-        material = "a"
-        [parts.r]
-        kind = "block"
-        element = "hex8"
-        origin = [0.04, 0.0, -0.01]
-        size = [0.01, 0.01, 0.01]
-        cells = [2, 2, 1]
-        material = "a"
+        r"
+        {bodies}
         [materials.a]
         young = 70e9
         poisson = 0.3
         density = 2700.0
-        [[supports]]
-        set = "pad.z1"
-        axes = "xy"
-        [[supports]]
-        set = "l.z0"
-        axes = "xyz"
-        [[supports]]
-        set = "r.z0"
-        axes = "xyz"
-        [[sliding]]
-        slaves = "pad.z0"
-        masters = "l.z1"
-        direction = [1.0, 0.0, 0.0]
-        [[sliding]]
-        slaves = "pad.z0"
-        masters = "r.z1"
-        direction = [1.0, 0.0, 0.0]
         [friction]
         mu = {{ values = [0.0] }}
         {friction}
         [modes]
         count = 4
-        "#,
-        0.01 + gap
+        "
     );
     outcome(&text).real[..4].to_vec()
 }

@@ -2,26 +2,21 @@
 
 use squealmap_fem::study::Event;
 
-use crate::cases::outcome;
+use crate::cases::{block, outcome, slides, support};
 
 /// Two blocks of tetrahedra; the upper one damps.
 fn blocks(values: &str) -> String {
+    let bodies = [
+        block("u", "tet4", [[0.004, 0.0, 0.0], [0.009, 0.008, 0.012]], [2, 2, 3], "a"),
+        block("l", "tet4", [[0.0, -0.002, -0.008], [0.02, 0.012, 0.008]], [4, 3, 2], "b"),
+        support("u.z1", "xyz"),
+        support("l.z0", "xyz"),
+        slides("u.z0", "l.z1", [0.3, 1.0, 0.0]),
+    ]
+    .concat();
     format!(
-        r#"
-        [parts.u]
-        kind = "block"
-        element = "tet4"
-        origin = [0.004, 0.0, 0.0]
-        size = [0.009, 0.008, 0.012]
-        cells = [2, 2, 3]
-        material = "a"
-        [parts.l]
-        kind = "block"
-        element = "tet4"
-        origin = [0.0, -0.002, -0.008]
-        size = [0.02, 0.012, 0.008]
-        cells = [4, 3, 2]
-        material = "b"
+        r"
+        {bodies}
         [materials.a]
         young = 70e9
         poisson = 0.3
@@ -31,21 +26,11 @@ fn blocks(values: &str) -> String {
         young = 210e9
         poisson = 0.28
         density = 7800.0
-        [[supports]]
-        set = "u.z1"
-        axes = "xyz"
-        [[supports]]
-        set = "l.z0"
-        axes = "xyz"
-        [[sliding]]
-        slaves = "u.z0"
-        masters = "l.z1"
-        direction = [0.3, 1.0, 0.0]
         [friction]
         mu = {{ {values} }}
         [modes]
         count = 12
-        "#
+        "
     )
 }
 
@@ -68,35 +53,27 @@ fn modes_that_exchange_their_shapes_turn_where_they_cross() {
 /// A square column has modes that nothing damps beside two that damping is given for, or a damping that is none: their growth is rounding.
 #[test]
 fn rounding_is_no_growth() {
-    let column = |damping: [&str; 2]| {
+    let body = [
+        block("c", "hex8", [[0.0; 3], [0.01, 0.01, 0.03]], [2, 2, 3], "a"),
+        support("c.z1", "xyz"),
+        slides("c.z0", "rigid", [1.0, 0.0, 0.0]),
+    ]
+    .concat();
+    let column = |[of_material, of_modes]: [&str; 2]| {
         format!(
-            r#"
-            [parts.c]
-            kind = "block"
-            element = "hex8"
-            origin = [0.0, 0.0, 0.0]
-            size = [0.01, 0.01, 0.03]
-            cells = [2, 2, 3]
-            material = "a"
+            r"
+            {body}
             [materials.a]
             young = 70e9
             poisson = 0.3
             density = 2700.0
-            {}
-            [[supports]]
-            set = "c.z1"
-            axes = "xyz"
-            [[sliding]]
-            slaves = "c.z0"
-            masters = "rigid"
-            direction = [1.0, 0.0, 0.0]
+            {of_material}
             [friction]
             mu = {{ values = [0.0, 0.001, 0.005, 0.01, 0.02, 0.1, 0.3] }}
             [modes]
             count = 6
-            {}
-            "#,
-            damping[0], damping[1]
+            {of_modes}
+            "
         )
     };
     for damping in [["", "damping_ratios = [0.01, 0.02]"], ["rayleigh = [0.0, 1e-30]", ""]] {
